@@ -1,0 +1,146 @@
+#include "apps/calibrate_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "datasets/text.h"
+
+namespace legible {
+namespace {
+
+template <typename Value>
+using Names = std::vector<std::pair<std::string, Value>>;
+
+const Names<LensModel> kLenses = {{"pinhole", LensModel::kPinhole},
+                                  {"brown-conrady", LensModel::kBrownConrady},
+                                  {"rational", LensModel::kRational}};
+
+const Names<bool HeldParameters::*> kHolds = {
+    {"focal-length", &HeldParameters::focal_length},
+    {"principal-point", &HeldParameters::principal_point},
+    {"distortion", &HeldParameters::distortion},
+    {"base-joints", &HeldParameters::base_joints},
+    {"platform-joints", &HeldParameters::platform_joints},
+    {"radii", &HeldParameters::radii},
+    {"joint-offsets", &HeldParameters::joint_offsets},
+};
+
+const Names<std::optional<double> PriorKnowledge::*> kKnown = {
+    {"joint_reading_m", &PriorKnowledge::joint_reading_m},
+    {"radius_m", &PriorKnowledge::radius_m},
+    {"joint_offset_m", &PriorKnowledge::joint_offset_m},
+    {"base_joint_m", &PriorKnowledge::base_joint_m},
+    {"platform_joint_m", &PriorKnowledge::platform_joint_m},
+    {"focal_length_px", &PriorKnowledge::focal_length_px},
+    {"principal_point_px", &PriorKnowledge::principal_point_px},
+    {"distortion", &PriorKnowledge::distortion},
+};
+
+template <typename Value>
+std::vector<std::string> NamesOf(const Names<Value>& table) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : table) names.push_back(name);
+  return names;
+}
+
+template <typename Value>
+std::optional<Value> Find(const Names<Value>& table, const std::string& name) {
+  const auto entry = std::find_if(table.begin(), table.end(), [&](const auto& e) { return e.first == name; });
+  return entry == table.end() ? std::nullopt : std::optional<Value>(entry->second);
+}
+
+HeldParameters HeldBy(const CalibrateSettings& settings) {
+  HeldParameters held;
+  for (const std::string& name : settings.hold) held.*Find(kHolds, name).value() = true;
+  return held;
+}
+
+bool UsesReadings(const CalibrateSettings& settings) { return settings.use_readings && !settings.free_legs; }
+
+// Whether something but the readings says how large the robot is.
+bool KnowsASize(const CalibrateSettings& settings, const PriorKnowledge& known) {
+  const HeldParameters held = HeldBy(settings);
+  return known.radius_m || known.base_joint_m || known.platform_joint_m || held.radii || held.base_joints ||
+         held.platform_joints;
+}
+
+}  // namespace
+
+std::vector<std::string> LensNames() { return NamesOf(kLenses); }
+std::vector<std::string> HoldNames() { return NamesOf(kHolds); }
+std::vector<std::string> KnownNames() { return NamesOf(kKnown); }
+std::optional<LensModel> LensFromName(const std::string& name) { return Find(kLenses, name); }
+
+std::string LensName(LensModel lens) {
+  for (const auto& [name, value] : kLenses)
+    if (value == lens) return name;
+  throw std::invalid_argument("LensName: not a lens model");
+}
+
+std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (!Find(kKnown, name)) throw std::invalid_argument(fmt::format("\"{}\" is none of {}", name, fmt::join(KnownNames(), ", ")));
+  if (equals == std::string::npos)
+    throw std::invalid_argument(fmt::format("\"{}\" has no value: give {}=SIGMA or {}=none", text, name, name));
+  const std::string value = text.substr(equals + 1);
+  if (value == "none") return {name, std::nullopt};
+  const std::optional<double> sigma = ParseFinite(value);
+  if (!sigma || *sigma <= 0)
+    throw std::invalid_argument(
+        fmt::format("{} is \"{}\", which is neither a number greater than 0 nor none", name, value));
+  return {name, sigma};
+}
+
+PriorKnowledge WithSettings(PriorKnowledge known, const CalibrateSettings& settings) {
+  for (const auto& [name, sigma] : settings.known) known.*Find(kKnown, name).value() = sigma;
+  return known;
+}
+
+std::vector<std::pair<std::string, double>> NamedKnowledge(const PriorKnowledge& known) {
+  std::vector<std::pair<std::string, double>> named;
+  for (const auto& [name, field] : kKnown)
+    if (known.*field) named.emplace_back(name, *(known.*field));
+  return named;
+}
+
+bool AssumesRigidPlatform(const CalibrateSettings& settings, const PriorKnowledge& known) {
+  return UsesReadings(settings) || (!settings.free_legs && KnowsASize(settings, known));
+}
+
+std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowledge& known) {
+  if (UsesReadings(settings)) return "The joint readings and one rigid platform tie the legs together.";
+  if (AssumesRigidPlatform(settings, known))
+    return "The joint readings are left out; one rigid platform ties the legs together.";
+  const std::string edges_only = "Edges only: nothing ties the legs together, each one's direction is free in each image";
+  return edges_only + (settings.free_legs ? "." : ", for without joint readings nothing known sets their scale.");
+}
+
+SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known) {
+  SessionCalibrationOptions options;
+  options.estimation.use_joint_readings = UsesReadings(settings);
+  options.estimation.rigid_platform = AssumesRigidPlatform(settings, known);
+  options.estimation.hold = HeldBy(settings);
+  options.estimation.threads = settings.threads;
+  options.lens = settings.lens;
+  options.folds = settings.folds;
+  options.threads = settings.threads;
+  return options;
+}
+
+std::string OptionsText(const CalibrateSettings& settings) {
+  std::vector<std::string> words;
+  if (settings.lens) words.push_back("--lens " + LensName(*settings.lens));
+  if (!settings.hold.empty()) words.push_back(fmt::format("--hold {}", fmt::join(settings.hold, ",")));
+  for (const auto& [name, sigma] : settings.known)
+    words.push_back(fmt::format("--known {}={}", name, sigma ? fmt::to_string(*sigma) : "none"));
+  if (!settings.use_readings) words.push_back("--no-readings");
+  if (settings.free_legs) words.push_back("--free-legs");
+  if (settings.folds != CalibrateSettings().folds) words.push_back(fmt::format("--folds {}", settings.folds));
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, " "));
+}
+
+}  // namespace legible

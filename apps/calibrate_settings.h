@@ -1,0 +1,59 @@
+// What the user of `legible calibrate` asks for, and what follows from it for the estimation.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/session_calibration.h"
+#include "core/session/session.h"
+
+namespace legible {
+
+struct CalibrateSettings {
+  std::filesystem::path session;
+  std::filesystem::path out = "calibration";
+  bool prints_json = false;
+  std::optional<LensModel> lens;  // none: the session camera's
+  std::vector<std::string> hold;  // names of HoldNames()
+  std::vector<std::pair<std::string, std::optional<double>>> known;  // names of KnownNames(); none: forgotten
+  bool use_readings = true;
+  bool free_legs = false;
+  int folds = 5;
+  int threads = 2;
+  bool embeds_pictures = true;
+};
+
+// "pinhole", "brown-conrady", "rational".
+std::vector<std::string> LensNames();
+std::string LensName(LensModel lens);
+std::optional<LensModel> LensFromName(const std::string& name);
+
+// What can be held: "focal-length", …; what can be known: "radius_m", …, as session.yaml names it.
+std::vector<std::string> HoldNames();
+std::vector<std::string> KnownNames();
+
+// "radius_m=0.0005" or "radius_m=none" taken apart. Throws std::invalid_argument with a message for the user.
+std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text);
+
+// What is known beforehand, by the session and then by the settings; by KnownNames().
+PriorKnowledge WithSettings(PriorKnowledge known, const CalibrateSettings& settings);
+std::vector<std::pair<std::string, double>> NamedKnowledge(const PriorKnowledge& known);
+
+// Joint readings, or a size that is known beforehand or held, set the scale of a robot whose legs hang on one rigid
+// platform. Where nothing does, the platform's rigidity is not assumed either ("edges only"): the answer then names
+// the scale of each leg that is open, which is what the user has to supply, instead of one for the whole.
+bool AssumesRigidPlatform(const CalibrateSettings& settings, const PriorKnowledge& known);
+
+// What ties the legs to one another, in a sentence.
+std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowledge& known);
+
+// The library's options; progress is left to the caller.
+SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known);
+
+// The options that change the result, as they would be typed: "--hold radii --folds 0"; "none" if all are default.
+std::string OptionsText(const CalibrateSettings& settings);
+
+}  // namespace legible

@@ -1,0 +1,185 @@
+#include "apps/calibration_json.h"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/program.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kLeastCoefficients = 5;  // of the distortion, also where the lens has none
+
+ordered_json List(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return std::vector<double>(values.data(), values.data() + values.size());
+}
+
+ordered_json OrNull(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(); }
+
+// fx, fy, cx, cy and the first coefficients of k1 k2 p1 p2 k3 k4 k5 k6.
+ordered_json CameraValues(const CameraParameters& values, LensModel lens) {
+  const int coefficients = std::max(kLeastCoefficients, static_cast<int>(lens));
+  return {{"fx", values[0]},
+          {"fy", values[1]},
+          {"cx", values[2]},
+          {"cy", values[3]},
+          {"distortion", List(values.segment(4, coefficients))}};
+}
+
+ordered_json CameraJson(const Camera& camera, const CameraParameters& values) {
+  ordered_json json = {
+      {"width_px", camera.width_px}, {"height_px", camera.height_px}, {"lens", LensName(camera.lens)}};
+  json.update(CameraValues(values, camera.lens));
+  return json;
+}
+
+ordered_json PlacementJson(const std::optional<Rigid3>& camera_from_base) {
+  Eigen::Vector4d rotation_xyzw = Eigen::Vector4d::Constant(kUnknown);
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Constant(kUnknown);
+  if (camera_from_base) {
+    rotation_xyzw = camera_from_base->rotation.coeffs();
+    translation_m = camera_from_base->translation;
+  }
+  return {{"rotation_xyzw", List(rotation_xyzw)}, {"translation_m", List(translation_m)}};
+}
+
+// Of a FoundLeg or its LegSigma.
+template <typename Values>
+ordered_json LegValues(const Values& leg) {
+  return {{"base_joint_m", List(leg.base_joint_m)},
+          {"base_joint_in_camera_m", List(leg.base_joint_in_camera_m)},
+          {"platform_joint_m", List(leg.platform_joint_m)},
+          {"radius_m", leg.radius_m},
+          {"joint_offset_m", leg.joint_offset_m}};
+}
+
+ordered_json LegsJson(const FoundParameters& found) {
+  ordered_json legs = ordered_json::array();
+  for (const FoundLeg& leg : found.legs) {
+    legs.push_back(LegValues(leg));
+    legs.back()["sigma"] = LegValues(leg.sigma);
+  }
+  return legs;
+}
+
+ordered_json LeftOutJson(const CalibrationRun& run) {
+  ordered_json left_out = ordered_json::array();
+  for (const ImageOutcome& image : run.result.images)
+    if (const std::string reason = WhyLeftOut(image); !reason.empty())
+      left_out.push_back({{"name", image.name}, {"reason", reason}});
+  for (const std::string& name : run.session.unlisted_images)
+    left_out.push_back({{"name", name}, {"reason", "has no row in joints.csv"}});
+  return left_out;
+}
+
+ordered_json SentencesOf(const std::vector<WeakDirection>& directions) {
+  ordered_json sentences = ordered_json::array();
+  for (const WeakDirection& direction : directions) sentences.push_back(direction.description);
+  return sentences;
+}
+
+ordered_json WeakJson(const std::vector<WeakDirection>& directions) {
+  ordered_json weak = ordered_json::array();
+  for (const WeakDirection& direction : directions)
+    weak.push_back({{"description", direction.description}, {"relative_sigma", direction.relative_sigma}});
+  return weak;
+}
+
+ordered_json HeldOutJson(const CalibrationRun& run) {
+  ordered_json images = ordered_json::array();
+  for (const ImageOutcome& image : run.result.images)
+    if (image.held_out_rms_px) images.push_back({{"name", image.name}, {"rms_px", *image.held_out_rms_px}});
+  return {{"rms_px", OrNull(run.result.held_out_rms_px)}, {"folds", run.options.folds}, {"images", images}};
+}
+
+ordered_json TagChecksJson(const std::vector<TagCheck>& checks) {
+  ordered_json json = ordered_json::array();
+  for (const TagCheck& check : checks)
+    json.push_back(
+        {{"group", check.group}, {"images", check.images}, {"rms_px", check.rms_px}, {"rms_m", check.rms_m}});
+  return json;
+}
+
+ordered_json TimesJson(const CalibrationRun& run) {
+  const StageTimes& times = run.result.times;
+  return {{"read", times.read_s},   {"detect", times.detect_s},     {"solve", times.solve_s}, {"covariance", times.covariance_s},
+          {"held_out", times.held_out_s}, {"report", run.report_s}, {"total", times.total_s}};
+}
+
+// How well the model explains the observations; nothing is known of that where there was no fit.
+void AddFit(const CalibrationRun& run, ordered_json& json) {
+  const LegCalibration& calibration = run.result.calibration;
+  const bool is_fitted = !calibration.edges.empty();
+  const bool has_readings = is_fitted && run.options.estimation.use_joint_readings;
+  const auto if_fitted = [&](double value) { return is_fitted ? value : kUnknown; };
+  json["rms_px"] = if_fitted(calibration.rms_px);
+  json["edge_sigma_px"] = if_fitted(calibration.edge_sigma_px);
+  json["noise_factors"] = {{"sample", if_fitted(calibration.noise.sample)},
+                           {"shift", if_fitted(calibration.noise.shift)},
+                           {"tilt", if_fitted(calibration.noise.tilt)}};
+  json["joint_reading_rms_sigma"] = has_readings ? calibration.reading_rms : kUnknown;
+  json["iterations"] = calibration.iterations;
+}
+
+void AddObservations(const CalibrationRun& run, ordered_json& json) {
+  json["images_used"] = CountUsedImages(run.result);
+  json["images_left_out"] = LeftOutJson(run);
+  json["edges_used"] = CountUsedEdges(run.result);
+  json["samples_used"] = run.result.calibration.samples;
+}
+
+void AddParameters(const CalibrationRun& run, const FoundParameters& found, ordered_json& json) {
+  Camera camera = run.session.camera;
+  camera.lens = run.options.lens.value_or(camera.lens);
+  json["camera"] = CameraJson(camera, found.camera);
+  json["camera"]["sigma"] = CameraValues(found.camera_sigma, camera.lens);
+  json["camera_from_base"] = PlacementJson(found.camera_from_base);
+  json["legs"] = LegsJson(found);
+}
+
+void AddProvenance(const CalibrationRun& run, ordered_json& json) {
+  json["program_version"] = ProgramVersion();
+  json["session"] = SessionPath(run);
+  json["content_hash"] = run.content_hash;
+  json["options"] = OptionsText(run.settings);
+  json["first_camera_pose_from"] = run.result.first_pose_from;
+}
+
+}  // namespace
+
+ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found) {
+  const LegCalibration& calibration = run.result.calibration;
+  ordered_json json = {{"status", ToString(calibration.status)},
+                       {"message", calibration.message},
+                       {"assumption", AssumptionText(run.settings, run.session.known)}};
+  AddFit(run, json);
+  AddObservations(run, json);
+  AddParameters(run, found, json);
+  json["unobservable"] = SentencesOf(calibration.observability.unobservable);
+  json["weak"] = WeakJson(calibration.observability.weak);
+  json["held_out"] = HeldOutJson(run);
+  json["tag_checks"] = TagChecksJson(run.result.tag_checks);
+  json["time_s"] = TimesJson(run);
+  AddProvenance(run, json);
+  return json;
+}
+
+ordered_json NominalJson(const Session& session) {
+  ordered_json legs = ordered_json::array();
+  for (const Leg& leg : session.robot.legs)
+    legs.push_back({{"base_joint_m", List(leg.base_joint_m)},
+                    {"platform_joint_m", List(leg.platform_joint_m)},
+                    {"radius_m", leg.radius_m},
+                    {"joint_offset_m", leg.joint_offset_m}});
+  return {{"camera", CameraJson(session.camera, ParametersOf(session.camera))}, {"legs", legs}};
+}
+
+std::string JsonText(const ordered_json& document) {
+  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace legible

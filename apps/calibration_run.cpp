@@ -1,0 +1,61 @@
+#include "apps/calibration_run.h"
+
+#include <algorithm>
+
+namespace legible {
+namespace {
+
+bool IsUsed(const LegEdge& edge) { return edge.left_out.empty(); }
+
+// Positions in the result of the images that were given to the estimation: those that could be read, and so were
+// searched for edges.
+std::vector<size_t> ImagesOfEstimation(const SessionCalibration& result) {
+  std::vector<size_t> images;
+  for (size_t i = 0; i < result.images.size(); ++i)
+    if (!result.images[i].edges.edges.empty()) images.push_back(i);
+  return images;
+}
+
+}  // namespace
+
+std::string SessionPath(const CalibrationRun& run) {
+  return std::filesystem::absolute(run.settings.session).lexically_normal().string();
+}
+
+std::string WhyLeftOut(const ImageOutcome& image) {
+  if (!image.left_out.empty()) return image.left_out;
+  const bool any = std::any_of(image.edges.edges.begin(), image.edges.edges.end(), IsUsed);
+  return any ? "" : "none of its edges could be measured";
+}
+
+int CountUsedImages(const SessionCalibration& result) {
+  return static_cast<int>(std::count_if(result.images.begin(), result.images.end(),
+                                        [](const ImageOutcome& image) { return WhyLeftOut(image).empty(); }));
+}
+
+int CountUsedEdges(const SessionCalibration& result) {
+  int count = 0;
+  for (const ImageOutcome& image : result.images)
+    count += static_cast<int>(std::count_if(image.edges.edges.begin(), image.edges.edges.end(), IsUsed));
+  return count;
+}
+
+std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionCalibration& result) {
+  const std::vector<size_t> images = ImagesOfEstimation(result);
+  std::vector<std::vector<const EdgeResidualSet*>> residuals(result.images.size());
+  for (const EdgeResidualSet& edge : result.calibration.edges)
+    residuals[images.at(static_cast<size_t>(edge.image))].push_back(&edge);
+  return residuals;
+}
+
+std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run) {
+  const std::vector<Rigid3>& found = run.result.calibration.camera_from_platform;
+  std::vector<std::optional<Rigid3>> poses(run.result.images.size());
+  if (!run.options.estimation.rigid_platform || found.empty()) return poses;
+  const std::vector<size_t> images = ImagesOfEstimation(run.result);
+  for (size_t k = 0; k < images.size(); ++k)
+    if (WhyLeftOut(run.result.images[images[k]]).empty()) poses[images[k]] = found.at(k);
+  return poses;
+}
+
+}  // namespace legible

@@ -1,0 +1,79 @@
+#include "apps/output_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "datasets/input_error.h"
+
+namespace legible {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders that would have to be made for `folder` to be there, the innermost first.
+std::vector<fs::path> MissingFolders(fs::path folder) {
+  std::vector<fs::path> missing;
+  for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) missing.push_back(folder);
+  return missing;
+}
+
+// Where files wait, in the folder that they are for so that moving them is one step each. Gone afterwards, and so
+// are the folders that were made for this and stayed empty.
+class Staging {
+ public:
+  explicit Staging(const fs::path& folder)
+      : made_(MissingFolders(folder)), path_(folder / fmt::format(".{}.part", getpid())) {
+    try {
+      fs::create_directories(path_);
+    } catch (const fs::filesystem_error&) {
+      Remove();
+      throw;
+    }
+  }
+  ~Staging() { Remove(); }
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  void Remove() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    for (const fs::path& folder : made_) fs::remove(folder, ignored);
+  }
+
+  std::vector<fs::path> made_;
+  fs::path path_;
+};
+
+template <typename Action>
+void OrInputError(const fs::path& folder, Action action) {
+  try {
+    action();
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(folder, 0, "cannot be written: " + error.code().message(), "name another folder with --out");
+  }
+}
+
+}  // namespace
+
+void DemandWritable(const fs::path& folder) {
+  OrInputError(folder, [&] { Staging trial(folder); });
+}
+
+void WriteTogether(const fs::path& folder, const std::vector<std::string>& names,
+                   const std::function<void(const fs::path&)>& write) {
+  OrInputError(folder, [&] {
+    const Staging staging(folder);
+    write(staging.path());
+    for (const std::string& name : names) {
+      if (fs::exists(staging.path() / name))
+        fs::rename(staging.path() / name, folder / name);
+      else
+        fs::remove(folder / name);
+    }
+  });
+}
+
+}  // namespace legible

@@ -1,0 +1,21 @@
+// The folder of a command's results, whose files appear together or not at all.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace legible {
+
+// Throws InputError, and leaves everything as it was, unless the folder can be written, or made where it is
+// missing.
+void DemandWritable(const std::filesystem::path& folder);
+
+// Calls `write` with an empty folder beside the results; then moves what it wrote there into `folder`, replacing
+// what was there. Those of `names` that `write` did not write are removed: they would be an earlier run's. Throws
+// InputError if that fails, and whatever `write` throws; the files are then as they were.
+void WriteTogether(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                   const std::function<void(const std::filesystem::path&)>& write);
+
+}  // namespace legible

@@ -1,0 +1,67 @@
+#include "apps/program.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/calibrate_command.h"
+#include "datasets/input_error.h"
+
+namespace legible {
+namespace {
+
+constexpr char kDescription[] = "Calibrates parallel robots by the edges of their legs, seen by one fixed camera.";
+constexpr char kFooter[] = R"(
+Exit codes: 0 success; 1 the computation ended without a usable result; 2 bad usage or bad input.
+`legible COMMAND --help` explains a command.)";
+
+// The command line as far as it could be understood: "legible calibrate".
+std::string CommandOf(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app.get_name() : app.get_name() + " " + commands.front()->get_name();
+}
+
+int ReportUsageError(const CLI::App& app, const CLI::ParseError& error, std::ostream& err) {
+  std::string what = error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  err << "legible: " << what << "; see `" << CommandOf(app) << " --help`\n";
+  return kExitBadInput;
+}
+
+int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console& console) {
+  CalibrateSettings calibrate;
+  const CLI::App* calibrate_command = AddCalibrateCommand(app, calibrate);
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version, console.out, console.err);
+  } catch (const CLI::ParseError& error) {
+    return ReportUsageError(app, error, console.err);
+  }
+  return calibrate_command->parsed() ? RunCalibrate(calibrate, console) : kExitBadInput;
+}
+
+}  // namespace
+
+const char* ProgramVersion() { return LEGIBLE_VERSION; }
+
+int RunProgram(const std::vector<std::string>& arguments, const Console& console) {
+  CLI::App app(kDescription, "legible");
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("legible ") + ProgramVersion(), "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("Subcommands", "Commands");
+  try {
+    return ParseAndRun(app, arguments, console);
+  } catch (const InputError& error) {
+    console.err << "legible: " << error.what() << "\n";
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    console.err << "legible: the computation failed: " << error.what() << "\n";
+    return kExitNoResult;
+  }
+}
+
+}  // namespace legible

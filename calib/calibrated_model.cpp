@@ -1,0 +1,90 @@
+#include "calib/calibrated_model.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace legible {
+namespace {
+
+constexpr int kModelLegParameters = 8;  // A (3), B (3), R, joint offset
+constexpr int kModelParameters = kCameraParameterCount + kLegCount * kModelLegParameters;
+
+std::vector<std::string> ModelNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < kCameraParameterCount; ++i) names.push_back(ParameterName(i));
+  for (int leg = 1; leg <= kLegCount; ++leg)
+    for (const char* name : {"base_joint_m.x", "base_joint_m.y", "base_joint_m.z", "platform_joint_m.x",
+                             "platform_joint_m.y", "platform_joint_m.z", "radius_m", "joint_offset_m"})
+      names.push_back(fmt::format("legs[{}].{}", leg, name));
+  return names;
+}
+
+// Linear map from the shared parameters to the model's: A is taken to the base frame, which follows A.
+Eigen::MatrixXd FromSharedParameters(const LegCalibration& calibration) {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kModelParameters, kSharedParameterCount);
+  map.topLeftCorner<kCameraParameterCount, kCameraParameterCount>().setIdentity();
+  const Eigen::Matrix<double, 18, kSharedParameterCount> base = BaseJointsFromShared(calibration);
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const int row = kCameraParameterCount + leg * kModelLegParameters;
+    map.middleRows<3>(row) = base.middleRows<3>(3 * leg);
+    map.block<5, 5>(row + 3, FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint).setIdentity();
+  }
+  return map;
+}
+
+double SigmaOf(const Eigen::MatrixXd& covariance, const std::vector<bool>& known, int index) {
+  const double variance = covariance(index, index);
+  return known[static_cast<size_t>(index)] ? std::sqrt(std::max(variance, 0.0))
+                                           : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+ModelCovariance CovarianceOfModel(const LegCalibration& calibration) {
+  const Eigen::MatrixXd map = FromSharedParameters(calibration);
+  ModelCovariance model{ModelNames(), map * calibration.observability.covariance * map.transpose(), {}};
+  for (int row = 0; row < kModelParameters; ++row) {
+    bool known = true;
+    for (int column = 0; column < kSharedParameterCount; ++column)
+      known &= map(row, column) == 0 || calibration.observability.known[static_cast<size_t>(column)];
+    model.known.push_back(known);
+  }
+  return model;
+}
+
+CalibratedModel ToModel(const LegCalibration& calibration) {
+  ModelCovariance covariance = CovarianceOfModel(calibration);
+  CalibratedModel model;
+  model.robot = calibration.robot;
+  model.camera = calibration.camera;
+  model.camera_from_base = calibration.camera_from_base;
+  model.parameter_names = std::move(covariance.names);
+  model.covariance = std::move(covariance.covariance);
+  return model;
+}
+
+LegSigma SigmaOfLeg(const LegCalibration& calibration, const ModelCovariance& model, int leg) {
+  const int row = kCameraParameterCount + leg * kModelLegParameters;
+  const int shared = FirstParameterOfLeg(leg);
+  const Observability& observability = calibration.observability;
+  LegSigma sigma;
+  for (int i = 0; i < 3; ++i) {
+    sigma.base_joint_m[i] = SigmaOf(model.covariance, model.known, row + i);
+    sigma.platform_joint_m[i] = SigmaOf(model.covariance, model.known, row + 3 + i);
+    sigma.base_joint_in_camera_m[i] = SigmaOf(observability.covariance, observability.known, shared + i);
+  }
+  sigma.radius_m = SigmaOf(model.covariance, model.known, row + 6);
+  sigma.joint_offset_m = SigmaOf(model.covariance, model.known, row + 7);
+  return sigma;
+}
+
+CameraParameters SigmaOfCamera(const LegCalibration& calibration) {
+  CameraParameters sigma;
+  for (int i = 0; i < kCameraParameterCount; ++i)
+    sigma[i] = SigmaOf(calibration.observability.covariance, calibration.observability.known, i);
+  return sigma;
+}
+
+}  // namespace legible

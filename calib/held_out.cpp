@@ -1,0 +1,140 @@
+#include "calib/held_out.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "calib/edge_residuals.h"
+
+namespace legible {
+namespace {
+
+struct Squares {
+  double sum = 0;
+  int count = 0;
+  void Add(const Eigen::VectorXd& values) {
+    sum += values.squaredNorm();
+    count += static_cast<int>(values.size());
+  }
+  std::optional<double> Rms() const {
+    return count > 0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
+  }
+};
+
+CalibrationStart StartAt(const LegCalibration& solution) {
+  return {solution.camera, solution.robot, solution.camera_from_base, {}};
+}
+
+// The solution's pose of one image with everything else held.
+std::optional<Rigid3> FitPose(const LegCalibrationInput& input, const LegCalibration& trained, size_t image,
+                              const Rigid3& first, LegCalibrationOptions options) {
+  LegCalibrationInput one{trained.robot, trained.camera, trained.camera_from_base, {input.images[image]}, {},
+                          StartAt(trained)};
+  one.start->camera_from_platform = {first};
+  options.hold = {true, true, true, true, true, true, true};
+  options.progress = nullptr;
+  const LegCalibration fitted = CalibrateLegs(one, options);
+  if (fitted.status != CalibrationStatus::kConverged) return std::nullopt;
+  return fitted.camera_from_platform.front();
+}
+
+std::optional<Rigid3> PredictPose(const LegCalibrationInput& input, const LegCalibration& trained, size_t image,
+                                  const Rigid3& first, const LegCalibrationOptions& options) {
+  const auto& readings = input.images[image].joint_readings_m;
+  if (!options.use_joint_readings || !readings) return FitPose(input, trained, image, first, options);
+  const Rigid3 guess = Inverse(trained.camera_from_base) * first;
+  const auto fk = ForwardKinematics(trained.robot, *readings, guess);
+  if (fk.status != ForwardKinematicsStatus::kConverged) return std::nullopt;
+  return trained.camera_from_base * fk.base_from_platform;
+}
+
+Squares PredictionError(const LegCalibration& trained, const ImageObservation& image,
+                        const Rigid3& camera_from_platform) {
+  Squares squares;
+  for (const EdgeObservation& edge : image.edges) {
+    const Leg& leg = trained.robot.legs[static_cast<size_t>(edge.leg)];
+    const auto distances =
+        EdgeDistances(ParametersOf(trained.camera), trained.camera_from_base * leg.base_joint_m,
+                      camera_from_platform * leg.platform_joint_m, leg.radius_m, edge);
+    if (!distances) continue;
+    const Eigen::Vector2d shading = trained.shading_px[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
+    squares.Add(distances->array() - shading[0] - shading[1] * PlacesAlong(edge).array());
+  }
+  return squares;
+}
+
+LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& solution,
+                     LegCalibrationOptions options, int folds, int fold) {
+  LegCalibrationInput training{input.drawing, input.camera, input.camera_from_base, {}, input.known,
+                               StartAt(solution)};
+  for (size_t i = 0; i < input.images.size(); ++i) {
+    if (static_cast<int>(i) % folds == fold) continue;
+    training.images.push_back(input.images[i]);
+    training.start->camera_from_platform.push_back(solution.camera_from_platform[i]);
+  }
+  options.progress = nullptr;
+  return CalibrateLegs(training, options);
+}
+
+}  // namespace
+
+HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
+                      const LegCalibrationOptions& options, int folds) {
+  HeldOut result;
+  result.image_rms_px.resize(input.images.size());
+  Squares all;
+  for (int fold = 0; fold < folds; ++fold) {
+    const LegCalibration trained = Train(input, solution, options, folds, fold);
+    if (trained.status != CalibrationStatus::kConverged) continue;
+    for (size_t i = static_cast<size_t>(fold); i < input.images.size(); i += static_cast<size_t>(folds)) {
+      const auto pose = PredictPose(input, trained, i, solution.camera_from_platform[i], options);
+      if (!pose) continue;
+      const Squares squares = PredictionError(trained, input.images[i], *pose);
+      result.image_rms_px[i] = squares.Rms();
+      all.sum += squares.sum;
+      all.count += squares.count;
+    }
+  }
+  result.rms_px = all.Rms();
+  return result;
+}
+
+std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera,
+                                     const std::vector<GroupSighting>& sightings,
+                                     const std::vector<Rigid3>& camera_from_carrier) {
+  Rigid3 carrier_from_group = group.carrier_from_group;
+  GroupCheck check;
+  for (const GroupSighting& sighting : sightings)
+    if (!sighting.corners_px.empty()) ++check.images;
+  if (check.images < 2) return std::nullopt;
+
+  constexpr int kRounds = 15;
+  for (int round = 0; round <= kRounds; ++round) {
+    Matrix6d information = Matrix6d::Zero();
+    Vector6d moment = Vector6d::Zero();
+    Squares px, metres;
+    for (size_t i = 0; i < sightings.size(); ++i)
+      for (size_t k = 0; k < sightings[i].corners_px.size(); ++k) {
+        const Eigen::Vector3d in_carrier = carrier_from_group * sightings[i].corners_in_group_m[k];
+        const Eigen::Vector3d x = camera_from_carrier[i] * in_carrier;
+        const Eigen::Vector2d error = Project(camera, x) - sightings[i].corners_px[k];
+        px.Add(error);
+        metres.Add(error * x.z() / camera.fx_px);
+        // The lens is close to a pinhole over the corner's error: its derivative will do for a fit.
+        Eigen::Matrix<double, 2, 3> d_x;
+        d_x << camera.fx_px / x.z(), 0, -camera.fx_px * x.x() / (x.z() * x.z()), 0, camera.fy_px / x.z(),
+            -camera.fy_px * x.y() / (x.z() * x.z());
+        Eigen::Matrix<double, 3, 6> d_pose;
+        d_pose << Eigen::Matrix3d::Identity(), -Skew(in_carrier - carrier_from_group.translation);
+        const Eigen::Matrix<double, 2, 6> jacobian = d_x * camera_from_carrier[i].rotation.toRotationMatrix() * d_pose;
+        information += jacobian.transpose() * jacobian;
+        moment -= jacobian.transpose() * error;
+      }
+    // Two coordinates a corner: the rms of a corner's distance is sqrt(2) that of a coordinate.
+    check.rms_px = *px.Rms() * std::sqrt(2.0);
+    check.rms_m = *metres.Rms() * std::sqrt(2.0);
+    if (round < kRounds) carrier_from_group = Displaced(carrier_from_group, information.ldlt().solve(moment));
+  }
+  return check;
+}
+
+}  // namespace legible

@@ -1,0 +1,98 @@
+// Identifies camera and hexapod from the edges of the legs, joint readings and what is known beforehand.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calib/leg_model.h"
+#include "calib/observability.h"
+#include "calib/robust_weights.h"
+#include "core/session/session.h"
+#include "core/vision/edge_observation.h"
+
+namespace legible {
+
+// Where the iterations begin, if not at the drawing: an earlier estimate.
+struct CalibrationStart {
+  Camera camera;
+  GoughStewart robot;
+  Rigid3 camera_from_base;
+  std::vector<Rigid3> camera_from_platform;  // of each image of the input
+};
+
+// What a calibration is given. Images without edges are allowed and ignored. Without a start the poses begin at
+// the forward kinematics of the drawing from the readings.
+struct LegCalibrationInput {
+  GoughStewart drawing;
+  Camera camera;            // first guess; its lens model says which coefficients are estimated
+  Rigid3 camera_from_base;  // first guess
+  std::vector<ImageObservation> images;
+  PriorKnowledge known;     // about the values in `drawing` and `camera`
+  std::optional<CalibrationStart> start;
+};
+
+// Parameters that keep their first value.
+struct HeldParameters {
+  bool focal_length = false;
+  bool principal_point = false;
+  bool distortion = false;
+  bool base_joints = false;
+  bool platform_joints = false;
+  bool radii = false;
+  bool joint_offsets = false;
+};
+
+struct LegCalibrationOptions {
+  bool use_joint_readings = true;
+  bool rigid_platform = true;   // false: each leg's direction is free in each image; nothing ties the legs
+  // Shading that is the same in all images, relative to an edge's common_sigma_px: a shift and a tilt of each
+  // leg's edges that no residual shows (radius and joints take them up) but the uncertainty must.
+  double lasting_shading = 0.7;
+  HeldParameters hold;
+  double default_joint_reading_sigma_m = 1e-4;  // where nothing is known of the readings' noise
+  int max_iterations = 50;                      // of each least-squares solve
+  int threads = 2;
+  std::function<void(int iteration, double rms_px)> progress;
+
+  void Check() const;  // throws std::invalid_argument
+};
+
+enum class CalibrationStatus {
+  kConverged,
+  kUnobservable,         // the data leave something open: see `observability`
+  kNotConverged,         // the iterations ended elsewhere than in a minimum, or the minimum is absurd
+  kTooFewObservations,   // fewer residuals than unknowns
+};
+const char* ToString(CalibrationStatus status);
+
+struct LegCalibration {
+  CalibrationStatus status = CalibrationStatus::kNotConverged;
+  std::string message;  // why, in a sentence, where the status is not kConverged
+  Camera camera;
+  Rigid3 camera_from_base;  // base: the rigid fit of A to the drawing
+  GoughStewart robot;       // A in base, B in platform (the rigid fit of B to the drawing)
+  std::array<Eigen::Vector3d, kLegCount> base_joints_in_camera_m;
+  std::vector<Rigid3> camera_from_platform;  // by image; identity where the platform is not rigid
+  std::array<Eigen::Vector4d, kLegCount> shading_px;  // lasting: shift and tilt of edge 1, of edge 2
+  Observability observability;         // covariance of the shared parameters, A in camera
+  EdgeNoise noise;                     // what the residuals say of the samples' own sigmas, over all edges
+  NoiseByEdge noise_by_edge;
+  double edge_sigma_px = 0;            // root mean square over the samples of what `noise` says of one sample
+  double rms_px = 0;                   // weighted, of all samples' distances
+  double reading_rms = 0;              // of the reading residuals in their sigmas; 0 without readings
+  std::vector<EdgeResidualSet> edges;  // residual and weight of every sample
+  int samples = 0;
+  int iterations = 0;
+  double covariance_s = 0;  // time that the observability took
+};
+
+// Maximum-likelihood estimate with outliers taken out by re-weighting and the noise re-estimated from the
+// residuals. Throws std::invalid_argument on malformed input; every numerical outcome is in the status.
+LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options);
+
+// How A in the base frame (x, y, z of legs 1…6) moves with the shared parameters: the base frame is itself the rigid
+// fit of A to the drawing, so that a motion of all A together does not show.
+Eigen::Matrix<double, 18, kSharedParameterCount> BaseJointsFromShared(const LegCalibration& calibration);
+
+}  // namespace legible

@@ -1,0 +1,170 @@
+#include "calib/observability.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace legible {
+namespace {
+
+constexpr double kUnknown = 1.0 / 3;     // relative sigma from which a combination counts as not known
+constexpr double kNumericalZero = 1e-13;  // of the largest eigenvalue: below it there is no information at all
+constexpr double kTouched = 1e-3;         // share of an unobservable direction that spoils a parameter
+constexpr int kWeakDirectionsReported = 3;
+
+// A direction with a name: entries relative to the parameters' natural sizes.
+struct NamedDirection {
+  std::string description;
+  Eigen::VectorXd direction;
+};
+
+// The size of the thing that each parameter describes, so that a relative sigma of 1 means "not known at all".
+Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {
+  const SharedParameters& shared = problem.shared;
+  Eigen::VectorXd sizes(kSharedParameterCount);
+  sizes.head<4>().setConstant(shared.camera[0]);
+  // A coefficient's size is what moves the image corner by its whole distance from the centre.
+  const double r2 = shared.camera.segment<2>(2).cwiseQuotient(shared.camera.head<2>()).squaredNorm();
+  const double r = std::sqrt(r2);
+  sizes.segment<8>(4) << 1 / r2, 1 / (r2 * r2), 1 / r, 1 / r, 1 / (r2 * r2 * r2), 1 / r2, 1 / (r2 * r2),
+      1 / (r2 * r2 * r2);
+  for (int i = 0; i < kLegCount; ++i) {
+    const LegParameters& leg = shared.legs[static_cast<size_t>(i)];
+    auto of_leg = sizes.segment<kLegParameterCount>(FirstParameterOfLeg(i));
+    of_leg.segment<3>(leg_parameter::kBaseJoint).setConstant(leg.segment<3>(leg_parameter::kBaseJoint).norm());
+    of_leg.segment<3>(leg_parameter::kPlatformJoint)
+        .setConstant(leg.segment<3>(leg_parameter::kPlatformJoint).norm());
+    of_leg[leg_parameter::kRadius] = leg[leg_parameter::kRadius];
+    of_leg[leg_parameter::kJointOffset] = leg.segment<3>(leg_parameter::kPlatformJoint).norm();
+    of_leg.segment<4>(leg_parameter::kShading).setConstant(1);
+  }
+  return sizes;
+}
+
+// The leg's base joint and radius grow together: its image stays as it is.
+void ScaleLeg(const EstimationProblem& problem, int leg, Eigen::VectorXd& direction) {
+  const LegParameters& values = problem.shared.legs[static_cast<size_t>(leg)];
+  auto of_leg = direction.segment<kLegParameterCount>(FirstParameterOfLeg(leg));
+  of_leg.segment<3>(leg_parameter::kBaseJoint) = values.segment<3>(leg_parameter::kBaseJoint);
+  of_leg[leg_parameter::kRadius] = values[leg_parameter::kRadius];
+}
+
+std::vector<NamedDirection> KnownFreedoms(const EstimationProblem& problem, const Eigen::VectorXd& sizes) {
+  const char* mend = "give joint readings, a radius, or a tag";
+  std::vector<NamedDirection> named;
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(kSharedParameterCount);
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    Eigen::VectorXd one = Eigen::VectorXd::Zero(kSharedParameterCount);
+    ScaleLeg(problem, leg, one);
+    ScaleLeg(problem, leg, whole);
+    whole.segment<3>(FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint) =
+        problem.shared.legs[static_cast<size_t>(leg)].segment<3>(leg_parameter::kPlatformJoint);
+    named.push_back({fmt::format("the scale of leg {} is free (its base joint's distance from the camera and its "
+                                 "radius grow together unseen): {}", leg + 1, mend),
+                     one.cwiseQuotient(sizes)});
+  }
+  named.push_back({fmt::format("the scale of the whole robot is free: {}", mend), whole.cwiseQuotient(sizes)});
+  return named;
+}
+
+// Orthonormal columns that span the directions the analysis is about: free parameters, gauge taken out.
+Eigen::MatrixXd FreeDirections(const EstimationProblem& problem, const Eigen::VectorXd& sizes) {
+  std::vector<int> free;
+  for (int i = 0; i < kSharedParameterCount; ++i)
+    if (problem.free[static_cast<size_t>(i)]) free.push_back(i);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(kSharedParameterCount, static_cast<Eigen::Index>(free.size()));
+  for (size_t i = 0; i < free.size(); ++i) basis(free[i], static_cast<Eigen::Index>(i)) = 1;
+  if (!problem.HasPlatformGauge()) return basis;
+
+  Eigen::MatrixXd gauge = Eigen::MatrixXd::Zero(6, kSharedParameterCount);
+  const auto of_joints = PlatformGauge(problem.drawn_platform_joints);
+  for (int leg = 0; leg < kLegCount; ++leg)
+    gauge.middleCols<3>(FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint) =
+        of_joints.middleCols<3>(3 * leg);
+  const Eigen::MatrixXd constraint = (gauge * sizes.asDiagonal() * basis).transpose();
+  const Eigen::MatrixXd q =
+      constraint.householderQr().householderQ() * Eigen::MatrixXd::Identity(basis.cols(), basis.cols());
+  return basis * q.rightCols(basis.cols() - 6);
+}
+
+// "camera.fx_px (+), legs[1].radius_m (-) …": the parameters that the direction moves most.
+std::string LargestEntries(const Eigen::VectorXd& direction) {
+  std::vector<int> order(static_cast<size_t>(direction.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return std::abs(direction[a]) > std::abs(direction[b]); });
+  const double largest = std::abs(direction[order[0]]);
+  std::string text;
+  for (size_t i = 0; i < 4 && std::abs(direction[order[i]]) > 0.3 * largest; ++i)
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", ParameterName(order[i]), direction[order[i]] > 0 ? '+' : '-');
+  return text;
+}
+
+WeakDirection Describe(const std::string& text, double relative_sigma, const Eigen::VectorXd& relative,
+                       const Eigen::VectorXd& sizes) {
+  const Eigen::VectorXd normalised = relative / relative.cwiseAbs().maxCoeff();
+  return {text, relative_sigma, normalised.cwiseProduct(sizes)};
+}
+
+// Names the null space: first the freedoms that have a name, then what is left of it by its largest entries.
+std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, const Eigen::VectorXd& sizes,
+                                            Eigen::MatrixXd space, const Eigen::VectorXd& sigmas) {
+  std::vector<WeakDirection> result;
+  const double least = sigmas.size() > 0 ? sigmas.minCoeff() : 0;
+  for (const NamedDirection& named : KnownFreedoms(problem, sizes)) {
+    if (space.cols() == 0) break;
+    const Eigen::VectorXd inside = space.transpose() * named.direction;
+    if (inside.norm() < 0.99 * named.direction.norm()) continue;
+    result.push_back(Describe(named.description, least, named.direction, sizes));
+    // What is left of the space: its directions orthogonal to the one just named.
+    const Eigen::MatrixXd q =
+        Eigen::MatrixXd(inside).householderQr().householderQ() * Eigen::MatrixXd::Identity(inside.size(), inside.size());
+    space = space * q.rightCols(inside.size() - 1);
+  }
+  for (Eigen::Index i = 0; i < space.cols(); ++i)
+    result.push_back(Describe(fmt::format("a combination of {} is not determined: hold one of them fixed or say how "
+                                          "well it is known", LargestEntries(space.col(i))),
+                              least, space.col(i), sizes));
+  return result;
+}
+
+}  // namespace
+
+Observability AnalyseObservability(const EstimationProblem& problem) {
+  const Eigen::VectorXd sizes = NaturalSizes(problem);
+  const Eigen::MatrixXd directions = FreeDirections(problem, sizes);
+  const Eigen::MatrixXd relative = sizes.asDiagonal() * SharedInformation(problem) * sizes.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(directions.transpose() * relative * directions);
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // ascending
+  const Eigen::MatrixXd vectors = directions * eigen.eigenvectors();
+
+  Observability result;
+  const Eigen::Index count = values.size();
+  const double zero = count > 0 ? kNumericalZero * values[count - 1] : 0;
+  const auto sigma = [&](Eigen::Index i) {
+    return values[i] > zero ? 1 / std::sqrt(values[i]) : std::numeric_limits<double>::infinity();
+  };
+  Eigen::Index unknown = 0;
+  while (unknown < count && sigma(unknown) > kUnknown) ++unknown;
+  Eigen::VectorXd sigmas(unknown);
+  for (Eigen::Index i = 0; i < unknown; ++i) sigmas[i] = sigma(i);
+
+  result.unobservable = NameUnobservable(problem, sizes, vectors.leftCols(unknown), sigmas);
+  for (Eigen::Index i = unknown; i < std::min(unknown + kWeakDirectionsReported, count); ++i)
+    result.weak.push_back(Describe(LargestEntries(vectors.col(i)), sigma(i), vectors.col(i), sizes));
+
+  const Eigen::MatrixXd known = sizes.asDiagonal() * vectors.rightCols(count - unknown);
+  result.covariance =
+      known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();
+  result.known.resize(kSharedParameterCount);
+  for (int i = 0; i < kSharedParameterCount; ++i)
+    result.known[static_cast<size_t>(i)] =
+        vectors.row(i).head(unknown).norm() < kTouched;
+  return result;
+}
+
+}  // namespace legible

@@ -1,0 +1,319 @@
+#include "calib/session_calibration.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "calib/held_out.h"
+
+namespace legible {
+namespace {
+
+// How well a drawing and a guessed camera are trusted while the camera's first pose is refined.
+constexpr double kDrawingSigma_m = 2e-3;
+constexpr double kGuessedFocalShare = 0.03;   // of the focal length
+constexpr double kGuessedCentreShare = 0.02;  // of the image width
+constexpr double kGuessedDistortion = 0.2;    // each coefficient
+constexpr double kUnknownLensBend_px = 12;
+constexpr double kSearchAfterScouts_px = 5;
+constexpr double kSearchAtLast_px = 3;
+constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
+
+class Stopwatch {
+ public:
+  double Lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// What the next search for edges starts from.
+struct Prediction {
+  Camera camera;
+  GoughStewart robot;
+  Rigid3 camera_from_base;
+  std::vector<Rigid3> base_from_platform;  // of each image
+};
+
+class SessionCalibrator {
+ public:
+  SessionCalibrator(const Session& session, const SessionCalibrationOptions& options)
+      : session_(session), options_(options), count_(session.images.size()) {
+    prediction_.camera = session.camera;
+    if (options.lens) prediction_.camera.lens = *options.lens;
+    drawn_camera_ = prediction_.camera;
+    prediction_.robot = session.robot;
+    result_.images.resize(count_);
+    for (size_t i = 0; i < count_; ++i) result_.images[i].name = session.images[i].name;
+  }
+
+  SessionCalibration Run() {
+    Stopwatch total, lap;
+    ReadImages();
+    result_.times.read_s = lap.Lap();
+    FindTags();
+    PlaceCamera();
+    RefineFirstPose();
+    FindEdges(kSearchAfterScouts_px);
+    result_.times.detect_s = lap.Lap();
+    Solve();
+    result_.times.solve_s = lap.Lap();
+    if (Usable()) {
+      FindEdges(kSearchAtLast_px);
+      result_.times.detect_s += lap.Lap();
+      Solve();
+      result_.times.solve_s += lap.Lap();
+    }
+    if (result_.calibration.status == CalibrationStatus::kConverged) CheckResult();
+    result_.times.held_out_s = lap.Lap();
+    result_.times.covariance_s = result_.calibration.covariance_s;
+    result_.times.solve_s -= result_.times.covariance_s;
+    result_.times.total_s = total.Lap();
+    return std::move(result_);
+  }
+
+ private:
+  bool Usable() const { return result_.calibration.status == CalibrationStatus::kConverged; }
+
+  template <typename F>
+  void ForEachImage(const std::string& stage, const std::vector<size_t>& which, F work) {
+    std::atomic<int> done = 0;
+    tbb::task_arena arena(options_.threads);
+    arena.execute([&] {
+      tbb::parallel_for(size_t{0}, which.size(), [&](size_t i) {
+        work(which[i]);
+        if (options_.progress) options_.progress(stage, ++done, static_cast<int>(which.size()));
+      });
+    });
+  }
+
+  std::vector<size_t> All() const {
+    std::vector<size_t> all(count_);
+    for (size_t i = 0; i < count_; ++i) all[i] = i;
+    return all;
+  }
+
+  void ReadImages() {
+    images_.resize(count_);
+    ForEachImage("reading", All(), [&](size_t i) {
+      auto image = ReadGrayImage(session_.images[i].file);
+      if (!image)
+        result_.images[i].left_out = "not an image, or damaged";
+      else if (image->width != session_.camera.width_px || image->height != session_.camera.height_px)
+        result_.images[i].left_out =
+            fmt::format("{} x {} px where the camera has {} x {}", image->width, image->height,
+                        session_.camera.width_px, session_.camera.height_px);
+      else
+        images_[i] = std::move(*image);
+    });
+  }
+
+  bool Left(size_t i) const { return images_[i].pixels.empty(); }
+
+  void FindTags() {
+    if (!session_.tags) return;
+    ForEachImage("finding tags", All(), [&](size_t i) {
+      if (Left(i)) return;
+      thread_local std::string family;
+      thread_local std::unique_ptr<TagDetector> detector;
+      if (!detector || family != session_.tags->family) {
+        detector = std::make_unique<TagDetector>(session_.tags->family);
+        family = session_.tags->family;
+      }
+      result_.images[i].tags = detector->Detect(images_[i]);
+    });
+  }
+
+  // The base's tags stand still: their corners from all images count together.
+  void PlaceCamera() {
+    if (session_.tags) {
+      for (const TagGroup& group : session_.tags->groups) {
+        if (group.carrier != TagCarrier::kBase) continue;
+        GroupSighting sighting;
+        for (const ImageOutcome& image : result_.images) {
+          const GroupSighting one = Match(group, image.tags);
+          sighting.corners_in_group_m.insert(sighting.corners_in_group_m.end(), one.corners_in_group_m.begin(),
+                                             one.corners_in_group_m.end());
+          sighting.corners_px.insert(sighting.corners_px.end(), one.corners_px.begin(), one.corners_px.end());
+        }
+        const auto pose = LocateGroup(prediction_.camera, sighting);
+        if (!pose) continue;
+        prediction_.camera_from_base = pose->camera_from_group * Inverse(group.carrier_from_group);
+        result_.first_pose_from = "tags " + group.name;
+        return;
+      }
+    }
+    if (!session_.camera_from_base)
+      throw std::invalid_argument(
+          "the session does not say where the camera is; give camera_from_base in camera.yaml (a tape measure will "
+          "do), or tags on the base");
+    prediction_.camera_from_base = *session_.camera_from_base;
+    result_.first_pose_from = "camera.yaml";
+  }
+
+  // A few images, the drawing trusted, the camera's pose free: brings predictions within reach of the fine search.
+  void RefineFirstPose() {
+    PredictPoses();
+    std::vector<size_t> scouts;
+    const size_t step = std::max<size_t>(1, count_ / static_cast<size_t>(options_.scouts));
+    for (size_t i = 0; i < count_; i += step) scouts.push_back(i);
+    LegLockOptions lock;
+    if (result_.first_pose_from != "camera.yaml") lock.range_px = kTagPoseRange_px;
+    LegEdgeOptions rough_edges = options_.edges;
+    rough_edges.lock = lock;
+    rough_edges.rough_only = true;
+    rough_edges.rough_bend_px = kUnknownLensBend_px;
+    rough_edges.search_px = kUnknownLensBend_px;
+    Measure("looking for the legs", scouts, rough_edges);
+
+    LegCalibrationInput input = Input(scouts);
+    input.known.base_joint_m = kDrawingSigma_m;
+    input.known.platform_joint_m = kDrawingSigma_m;
+    input.known.joint_offset_m = kDrawingSigma_m;
+    input.known.joint_reading_m = kDrawingSigma_m / 10;
+    if (!input.known.distortion) input.known.distortion = kGuessedDistortion;
+    input.known.focal_length_px = kGuessedFocalShare * drawn_camera_.fx_px;
+    input.known.principal_point_px = kGuessedCentreShare * drawn_camera_.width_px;
+    if (!input.known.radius_m) input.known.radius_m = 0.1 * session_.robot.legs[0].radius_m;
+    LegCalibrationOptions rough;
+    rough.threads = options_.threads;
+    const LegCalibration scouted = CalibrateLegs(input, rough);
+    if (getenv("DBG")) fprintf(stderr,"scout %s %s rms %.3f samples %d fx %.1f k1 %.3f k2 %.3f edges %zu\n",ToString(scouted.status),scouted.message.c_str(),scouted.rms_px,scouted.samples,scouted.camera.fx_px,scouted.camera.distortion[0],scouted.camera.distortion[1],scouted.edges.size());
+    if (scouted.status == CalibrationStatus::kConverged) Adopt(scouted);
+  }
+
+  void Adopt(const LegCalibration& calibration) {
+    prediction_.camera = calibration.camera;
+    prediction_.robot = calibration.robot;
+    prediction_.camera_from_base = calibration.camera_from_base;
+    PredictPoses();
+  }
+
+  void PredictPoses() {
+    prediction_.base_from_platform.assign(count_, prediction_.robot.home);
+    for (size_t i = 0; i < count_; ++i) {
+      const auto fk =
+          ForwardKinematics(prediction_.robot, session_.images[i].joint_readings_m, prediction_.robot.home);
+      if (fk.status == ForwardKinematicsStatus::kConverged)
+        prediction_.base_from_platform[i] = fk.base_from_platform;
+    }
+  }
+
+  void FindEdges(double search_px) {
+    LegEdgeOptions fine = options_.edges;
+    fine.lock = std::nullopt;
+    fine.search_px = search_px;
+    Measure("finding edges", All(), fine);
+  }
+
+  void Measure(const std::string& stage, const std::vector<size_t>& which, const LegEdgeOptions& edge_options) {
+    ForEachImage(stage, which, [&](size_t i) {
+      if (Left(i)) return;
+      const LegsInCamera legs =
+          PlaceLegs(prediction_.robot, prediction_.camera_from_base, prediction_.base_from_platform[i]);
+      result_.images[i].edges = MeasureLegEdges(images_[i], legs, prediction_.camera, edge_options);
+    });
+  }
+
+  LegCalibrationInput Input(const std::vector<size_t>& which) const {
+    LegCalibrationInput input{session_.robot, drawn_camera_, prediction_.camera_from_base, {}, session_.known,
+                              CalibrationStart{prediction_.camera, prediction_.robot,
+                                               prediction_.camera_from_base, {}}};
+    for (size_t i : which) {
+      if (Left(i)) continue;
+      input.images.push_back(
+          ToObservation(session_.images[i].name, session_.images[i].joint_readings_m, result_.images[i].edges));
+      input.start->camera_from_platform.push_back(prediction_.camera_from_base * prediction_.base_from_platform[i]);
+    }
+    return input;
+  }
+
+  void Solve() {
+    if (options_.progress) options_.progress("solving", 0, 1);
+    result_.calibration = CalibrateLegs(Input(All()), options_.estimation);
+    if (result_.calibration.base_joints_in_camera_m[0].norm() > 0) Adopt(result_.calibration);
+  }
+
+  void CheckResult() {
+    if (options_.progress) options_.progress("checking", 0, 1);
+    std::vector<size_t> used;
+    for (size_t i = 0; i < count_; ++i)
+      if (!Left(i)) used.push_back(i);
+    for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
+    for (size_t i : used) FinishImage(result_.images[i]);
+    if (options_.folds > 1) {
+      const HeldOut held_out =
+          CrossValidate(Input(used), result_.calibration, options_.estimation, options_.folds);
+      result_.held_out_rms_px = held_out.rms_px;
+      for (size_t k = 0; k < used.size(); ++k) result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
+    }
+    if (session_.tags) CheckTags(used);
+  }
+
+  void CountResiduals(const EdgeResidualSet& edge, const std::vector<size_t>& used) {
+    const size_t image = used[static_cast<size_t>(edge.image)];
+    squares_.resize(count_);
+    weights_.resize(count_);
+    squares_[image] += (edge.weight.array() * edge.residual_px.array().square()).sum();
+    weights_[image] += edge.weight.sum();
+    result_.images[image].rms_px = std::sqrt(squares_[image] / std::max(weights_[image], 1e-9));
+  }
+
+  static void FinishImage(ImageOutcome& image) {
+    const bool any = std::any_of(image.edges.edges.begin(), image.edges.edges.end(),
+                                 [](const LegEdge& edge) { return edge.left_out.empty(); });
+    if (!any) image.left_out = "none of its edges could be measured";
+  }
+
+  void CheckTags(const std::vector<size_t>& used) {
+    for (const TagGroup& group : session_.tags->groups) {
+      std::vector<GroupSighting> sightings;
+      std::vector<Rigid3> camera_from_carrier;
+      for (size_t k = 0; k < used.size(); ++k) {
+        sightings.push_back(Match(group, result_.images[used[k]].tags));
+        const bool on_base = group.carrier == TagCarrier::kBase;
+        // The platform's pose by the readings alone: what the robot would be sent to.
+        camera_from_carrier.push_back(on_base ? prediction_.camera_from_base
+                                              : prediction_.camera_from_base *
+                                                    prediction_.base_from_platform[used[k]]);
+      }
+      if (const auto check = CheckGroup(group, prediction_.camera, sightings, camera_from_carrier))
+        result_.tag_checks.push_back({group.name, check->images, check->rms_px, check->rms_m});
+    }
+  }
+
+  const Session& session_;
+  const SessionCalibrationOptions& options_;
+  size_t count_;
+  Camera drawn_camera_;
+  Prediction prediction_;
+  std::vector<GrayImage> images_;
+  std::vector<double> squares_, weights_;
+  SessionCalibration result_;
+};
+
+}  // namespace
+
+void SessionCalibrationOptions::Check() const {
+  estimation.Check();
+  edges.Check();
+  if (scouts < 1 || threads < 1 || folds < 0) throw std::invalid_argument("scouts, threads and folds must be positive");
+}
+
+SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options) {
+  options.Check();
+  return SessionCalibrator(session, options).Run();
+}
+
+}  // namespace legible

@@ -1,0 +1,66 @@
+// From a session's images to a calibrated model: finds the edges, identifies, checks on images held out.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/leg_calibration.h"
+#include "core/session/session.h"
+#include "core/vision/leg_edges.h"
+#include "core/vision/tags.h"
+
+namespace legible {
+
+struct SessionCalibrationOptions {
+  LegCalibrationOptions estimation;
+  LegEdgeOptions edges;
+  std::optional<LensModel> lens;  // instead of the session camera's
+  int scouts = 12;                // images that the camera's first pose is refined on
+  int folds = 5;                  // of the cross-validation; 0: none
+  int threads = 2;
+  // stage: "reading", "finding edges", "solving", "checking"; done of total.
+  std::function<void(const std::string& stage, int done, int total)> progress;
+
+  void Check() const;  // throws std::invalid_argument
+};
+
+// What became of one image of the session.
+struct ImageOutcome {
+  std::string name;
+  std::string left_out;  // why the image was not used; empty: used
+  LegEdges edges;
+  std::vector<TagDetection> tags;
+  double rms_px = 0;                      // of the used samples, in the final estimate
+  std::optional<double> held_out_rms_px;  // of the samples, predicted by a model that has not seen the image
+};
+
+// Tags on the base or platform, predicted by the calibrated model, against where they were seen.
+struct TagCheck {
+  std::string group;
+  int images = 0;
+  double rms_px = 0;  // corners, after the group's own place on its carrier was fitted over all images
+  double rms_m = 0;   // the same, across the line of sight at the tags' distance
+};
+
+struct StageTimes {
+  double read_s = 0, detect_s = 0, solve_s = 0, covariance_s = 0, held_out_s = 0, total_s = 0;
+};
+
+struct SessionCalibration {
+  LegCalibration calibration;
+  std::vector<ImageOutcome> images;
+  // Edges of images held out in turn, predicted from their joint readings alone (or, without readings, after
+  // their pose was fitted): root mean square over all of them.
+  std::optional<double> held_out_rms_px;
+  std::vector<TagCheck> tag_checks;
+  std::string first_pose_from;  // "tags base_board" or "camera.yaml"
+  StageTimes times;
+};
+
+// Runs the whole chain. Throws std::invalid_argument for a session that does not say where the camera is (no
+// camera_from_base and no tags on the base that are seen); an image that cannot be read is left out with its reason.
+SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options);
+
+}  // namespace legible

@@ -1,0 +1,79 @@
+// What a calibration session holds, and the model that comes out of it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera.h"
+#include "core/robots/gough_stewart.h"
+
+namespace legible {
+
+// 1-sigma of what is known beforehand about the values in the session's robot and camera; empty = unknown.
+struct PriorKnowledge {
+  std::optional<double> joint_reading_m;
+  std::optional<double> radius_m;
+  std::optional<double> joint_offset_m;
+  std::optional<double> base_joint_m;      // each coordinate, up to where the base as a whole is
+  std::optional<double> platform_joint_m;  // each coordinate, up to where the platform as a whole is
+  std::optional<double> focal_length_px;
+  std::optional<double> principal_point_px;
+  std::optional<double> distortion;        // each coefficient
+};
+
+enum class TagCarrier { kBase, kPlatform };
+
+struct Tag {
+  int id = 0;
+  // In the group's frame, m: bottom-left, bottom-right, top-right, top-left of the black border.
+  std::array<Eigen::Vector3d, 4> corners_m;
+};
+
+// Tags that are rigid to one another, on the base or on the platform.
+struct TagGroup {
+  std::string name;
+  TagCarrier carrier = TagCarrier::kBase;
+  Rigid3 carrier_from_group;           // base_from_group or platform_from_group
+  double translation_sigma_m = 0;      // 1-sigma of that placement, each coordinate
+  double rotation_sigma_rad = 0;
+  std::vector<Tag> tags;
+};
+
+struct TagLayout {
+  std::string family;  // as libapriltag names it, "tag36h11"
+  std::vector<TagGroup> groups;
+};
+
+struct SessionImage {
+  std::string name;  // as in joints.csv
+  std::filesystem::path file;
+  Vector6d joint_readings_m;
+};
+
+struct Session {
+  std::filesystem::path folder;
+  GoughStewart robot;                      // the drawing
+  Camera camera;                           // the first guess
+  std::optional<Rigid3> camera_from_base;  // by tape measure, where given
+  std::vector<SessionImage> images;        // in the order of joints.csv
+  std::optional<TagLayout> tags;
+  PriorKnowledge known;
+  std::vector<std::filesystem::path> files;  // what it was read from but the images: session.yaml, robot, camera, …
+  std::vector<std::string> unlisted_images;  // in the image folder but not in joints.csv: not used
+};
+
+// What a calibration found, and what everything else starts from.
+struct CalibratedModel {
+  GoughStewart robot;
+  std::optional<Camera> camera;
+  std::optional<Rigid3> camera_from_base;
+  std::vector<std::string> parameter_names;       // row order of `covariance`, e.g. "legs[1].base_joint_m.x"
+  Eigen::MatrixXd covariance;                     // of the named parameters, SI units; empty for a drawing
+  std::map<std::string, std::string> provenance;  // session, content_hash, program_version, options
+};
+
+}  // namespace legible

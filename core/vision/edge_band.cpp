@@ -1,0 +1,209 @@
+#include "core/vision/edge_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace legible {
+namespace {
+
+// Where brightness is read for flattening, clear of the blurred edge itself (px inside).
+constexpr double kBackgroundFrom = -5, kBackgroundTo = -2, kLegFrom = 1.5, kLegTo = 6;
+constexpr double kLeastRelativeContrast = 0.3;  // of a cell, against the median cell's
+constexpr size_t kFewestPixels = 4;
+
+// x range in a row within which |along| <= half_length and -inside <= outward <= outside.
+struct Span {
+  double low, high;
+  void Clip(double slope, double at_zero, double least, double most) {
+    // least <= slope x + at_zero <= most
+    if (std::abs(slope) < 1e-12) {
+      if (at_zero < least || at_zero > most) high = low - 1;
+      return;
+    }
+    const double a = (least - at_zero) / slope, b = (most - at_zero) / slope;
+    low = std::max(low, std::min(a, b));
+    high = std::min(high, std::max(a, b));
+  }
+};
+
+void CollectCell(const GrayImage& image, const Eigen::Vector2d& start, const Eigen::Vector2d& end,
+                 double outside_px, double inside_px, const BandCell& cell, std::vector<BandPixel>& pixels) {
+  const Eigen::Vector2d tangent = (end - start).normalized();
+  const double half_length = (end - start).norm() / 2;
+  const double reach = half_length * std::abs(tangent.y()) + std::max(outside_px, inside_px);
+  const int top = std::max(0, static_cast<int>(std::ceil(cell.centre_px.y() - reach)));
+  const int bottom = std::min(image.height - 1, static_cast<int>(std::floor(cell.centre_px.y() + reach)));
+  for (int y = top; y <= bottom; ++y) {
+    const double dy = y - cell.centre_px.y();
+    Span span{0.0 - cell.centre_px.x(), image.width - 1 - cell.centre_px.x()};
+    span.Clip(tangent.x(), tangent.y() * dy, -half_length, half_length);
+    span.Clip(cell.normal_px.x(), cell.normal_px.y() * dy, -inside_px, outside_px);
+    const int from = static_cast<int>(std::ceil(span.low + cell.centre_px.x()));
+    const int to = static_cast<int>(std::floor(span.high + cell.centre_px.x()));
+    for (int x = from; x <= to; ++x) {
+      const Eigen::Vector2d from_centre(x - cell.centre_px.x(), dy);
+      pixels.push_back({static_cast<float>(-cell.normal_px.dot(from_centre)), static_cast<float>(image(x, y))});
+    }
+  }
+}
+
+// Mean brightness over part of a cell.
+struct Level {
+  double sum = 0;
+  double count = 0;
+  void Add(double value) {
+    sum += value;
+    count += 1;
+  }
+  void Add(const Level& other, double weight) {
+    sum += weight * other.sum;
+    count += weight * other.count;
+  }
+  double Mean() const { return count > 0 ? sum / count : 0; }
+};
+
+struct Levels {
+  Level background, leg;
+  double Contrast() const { return leg.Mean() - background.Mean(); }
+  bool IsMeasured() const {
+    return background.count >= static_cast<double>(kFewestPixels) && leg.count >= static_cast<double>(kFewestPixels);
+  }
+};
+
+Levels LevelsOf(const EdgeBand& band, const BandCell& cell, double place_px) {
+  Levels levels;
+  for (size_t i = cell.first; i < cell.last; ++i) {
+    const double x = band.pixels[i].inside_px - place_px;
+    if (x >= kBackgroundFrom && x <= kBackgroundTo) levels.background.Add(band.pixels[i].brightness);
+    if (x >= kLegFrom && x <= kLegTo) levels.leg.Add(band.pixels[i].brightness);
+  }
+  return levels;
+}
+
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void DropCellsWithoutContrast(EdgeBand& band, std::vector<Levels>& levels) {
+  std::vector<double> contrasts;
+  for (const Levels& of_cell : levels) contrasts.push_back(of_cell.Contrast());
+  const double typical = MedianOf(contrasts);
+  std::vector<BandCell> kept;
+  std::vector<Levels> kept_levels;
+  bool previous_kept = false;
+  for (size_t i = 0; i < band.cells.size(); ++i) {
+    const bool keep =
+        levels[i].IsMeasured() && levels[i].Contrast() * typical > kLeastRelativeContrast * typical * typical;
+    if (keep) {
+      kept.push_back(band.cells[i]);
+      kept.back().follows_previous &= previous_kept;
+      kept_levels.push_back(levels[i]);
+    }
+    previous_kept = keep;
+  }
+  band.cells = std::move(kept);
+  levels = std::move(kept_levels);
+}
+
+// Each cell's levels averaged with its neighbours' (1 2 1).
+std::vector<Levels> Smoothed(const std::vector<BandCell>& cells, const std::vector<Levels>& levels) {
+  std::vector<Levels> smooth = levels;
+  const auto add = [&](size_t to, size_t from, double weight) {
+    smooth[to].background.Add(levels[from].background, weight);
+    smooth[to].leg.Add(levels[from].leg, weight);
+  };
+  for (size_t i = 0; i < cells.size(); ++i) {
+    add(i, i, 1);
+    if (!cells[i].follows_previous || i == 0) continue;
+    add(i, i - 1, 1);
+    add(i - 1, i, 1);
+  }
+  return smooth;
+}
+
+}  // namespace
+
+EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,
+                     double inside_px) {
+  EdgeBand band;
+  bool previous = false;
+  for (size_t i = 0; i + 1 < curve.size(); ++i) {
+    const PredictedEdgePoint &a = curve[i], &b = curve[i + 1];
+    const bool visible = a.obstacle == EdgeObstacle::kNone && b.obstacle == EdgeObstacle::kNone;
+    if (visible) {
+      BandCell cell{(a.share + b.share) / 2, (a.point_px + b.point_px) / 2, {}, previous, band.pixels.size(), 0};
+      const Eigen::Vector2d chord = (b.point_px - a.point_px).normalized();
+      cell.normal_px = Eigen::Vector2d(-chord.y(), chord.x());
+      if (cell.normal_px.dot(a.normal_px) < 0) cell.normal_px = -cell.normal_px;
+      CollectCell(image, a.point_px, b.point_px, outside_px, inside_px, cell, band.pixels);
+      cell.last = band.pixels.size();
+      band.cells.push_back(cell);
+      band.length_px += (b.point_px - a.point_px).norm();
+    }
+    previous = visible;
+  }
+  return band;
+}
+
+void Flatten(EdgeBand& band, double place_px) {
+  if (band.cells.empty()) return;
+  std::vector<Levels> levels;
+  for (const BandCell& cell : band.cells) levels.push_back(LevelsOf(band, cell, place_px));
+  DropCellsWithoutContrast(band, levels);
+  Levels all;
+  for (const Levels& of_cell : levels) {
+    all.background.Add(of_cell.background, 1);
+    all.leg.Add(of_cell.leg, 1);
+  }
+  const std::vector<Levels> smooth = Smoothed(band.cells, levels);
+  for (size_t i = 0; i < band.cells.size(); ++i) {
+    const double background = smooth[i].background.Mean() - all.background.Mean();
+    const double leg = smooth[i].leg.Mean() - all.leg.Mean();
+    for (size_t p = band.cells[i].first; p < band.cells[i].last; ++p) {
+      // A soft step about a pixel wide from one correction to the other.
+      const double inside = 1 / (1 + std::exp(-1.7 * (band.pixels[p].inside_px - place_px)));
+      band.pixels[p].brightness -= static_cast<float>(background + inside * (leg - background));
+    }
+  }
+}
+
+EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell, double outside_px,
+                       double inside_px, double width_px) {
+  EdgeProfile profile(static_cast<size_t>(std::ceil((outside_px + inside_px) / width_px)));
+  for (size_t c = first_cell; c < last_cell; ++c)
+    for (size_t i = band.cells[c].first; i < band.cells[c].last; ++i) {
+      const BandPixel& pixel = band.pixels[i];
+      const double position = (pixel.inside_px + outside_px) / width_px;
+      if (position < 0 || position >= static_cast<double>(profile.size())) continue;
+      ProfileBin& bin = profile[static_cast<size_t>(position)];
+      bin.inside_px += pixel.inside_px;
+      bin.brightness += pixel.brightness;
+      bin.count += 1;
+    }
+  for (ProfileBin& bin : profile) {
+    if (bin.count == 0) continue;
+    bin.inside_px /= bin.count;
+    bin.brightness /= bin.count;
+  }
+  return profile;
+}
+
+double GreyNoise(const EdgeBand& band) {
+  std::vector<double> variances;
+  for (const BandCell& cell : band.cells) {
+    const Level mean = LevelsOf(band, cell, 0).background;
+    if (mean.count < 8) continue;
+    double squares = 0;
+    for (size_t i = cell.first; i < cell.last; ++i) {
+      const double x = band.pixels[i].inside_px;
+      if (x >= kBackgroundFrom && x <= kBackgroundTo)
+        squares += std::pow(band.pixels[i].brightness - mean.Mean(), 2);
+    }
+    variances.push_back(squares / (mean.count - 1));
+  }
+  return variances.empty() ? 0 : std::sqrt(MedianOf(variances));
+}
+
+}  // namespace legible

@@ -1,0 +1,27 @@
+// 8-bit grey images, without a dependency on the library that decodes them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace legible {
+
+struct GrayImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  // row by row
+
+  std::uint8_t operator()(int x, int y) const {
+    return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  }
+};
+
+// Any format that OpenCV reads, colours turned to grey; nothing where the file is not an image.
+std::optional<GrayImage> ReadGrayImage(const std::filesystem::path& file);
+
+// Gaussian blur; sigma_px > 0.
+GrayImage Blurred(const GrayImage& image, double sigma_px);
+
+}  // namespace legible

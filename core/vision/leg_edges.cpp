@@ -1,0 +1,472 @@
+#include "core/vision/leg_edges.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "core/geometry/edge_distance.h"
+#include "core/vision/edge_band.h"
+#include "core/vision/edge_profile.h"
+
+namespace legible {
+namespace {
+
+constexpr double kOutside_px = 8, kInside_px = 6;  // the fine band
+constexpr double kBin_px = 0.125;
+constexpr double kRoughBin_px = 0.5, kRoughStretch_px = 18;
+constexpr double kRoughTolerance_px = 0.9;   // of a stretch from the line through the others
+constexpr double kBendStep_px = 3;
+constexpr double kLeastGreyNoise = 0.5;      // quantisation alone leaves 0.3
+// Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the place by
+// its share of the contrast.
+constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
+constexpr double kOutlierSigmas = 4, kOutlierFloor_px = 0.1;
+constexpr double kFirstBlur_px = 0.75;
+constexpr const char* kNoEdge = "no edge in the brightness across it";
+
+// One edge on its way through the stages.
+struct Work {
+  LegEdge* result = nullptr;
+  const LegInCamera* leg = nullptr;
+  PredictedEdge predicted;  // its points follow `normal`
+  EdgeBand band;
+  EdgeProfile profile;
+  ProfileFitOptions fit_options;
+  std::optional<ProfileFit> fit;
+
+  bool Dropped() const { return !result->left_out.empty(); }
+};
+
+// The outline normal of the edge through two image points, on the side of `like`; nothing where the lens folds.
+std::optional<Eigen::Vector3d> NormalThrough(const Camera& camera, const Eigen::Vector2d& a_px,
+                                             const Eigen::Vector2d& b_px, const Eigen::Vector3d& like) {
+  const auto a = Unproject(camera, a_px), b = Unproject(camera, b_px);
+  if (!a || !b) return std::nullopt;
+  const Eigen::Vector3d normal = a->homogeneous().cross(b->homogeneous()).normalized();
+  return normal.dot(like) < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+// Moves the edge's curve to a new outline normal; the stretches keep their visibility.
+void MoveTo(const Camera& camera, const Eigen::Vector3d& normal, Work& work) {
+  work.predicted.normal = normal;
+  for (PredictedEdgePoint& point : work.predicted.points) {
+    const Eigen::Vector3d on_axis = work.leg->AxisPoint(point.share);
+    const auto moved = EdgePointNear(camera, normal, on_axis + work.leg->radius_m * normal);
+    if (!moved) {
+      point.obstacle = EdgeObstacle::kImageBorder;
+      continue;
+    }
+    point.point_px = moved->point_px;
+    point.normal_px = moved->normal_px;
+  }
+}
+
+// Moves the curve by `at_a` and `at_b` px outward at the leg's two ends.
+void ShiftEnds(const Camera& camera, double at_a_px, double at_b_px, Work& work) {
+  const PredictedEdgePoint &a = work.predicted.points.front(), &b = work.predicted.points.back();
+  const auto normal = NormalThrough(camera, a.point_px + at_a_px * a.normal_px, b.point_px + at_b_px * b.normal_px,
+                                    work.predicted.normal);
+  if (normal) MoveTo(camera, *normal, work);
+}
+
+double VisibleLength(const PredictedEdge& edge) {
+  double length = 0;
+  for (size_t i = 0; i + 1 < edge.points.size(); ++i)
+    if (edge.points[i].obstacle == EdgeObstacle::kNone && edge.points[i + 1].obstacle == EdgeObstacle::kNone)
+      length += (edge.points[i + 1].point_px - edge.points[i].point_px).norm();
+  return length;
+}
+
+// What keeps most of the edge from being seen.
+std::string MainObstacle(const PredictedEdge& edge) {
+  std::map<std::string, int> reasons;
+  for (const PredictedEdgePoint& point : edge.points)
+    if (point.obstacle != EdgeObstacle::kNone) ++reasons[Describe(point)];
+  const auto most = std::max_element(reasons.begin(), reasons.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == reasons.end() ? "too short in the image" : most->first;
+}
+
+// Groups of neighbouring cells about `length_px` long: [first, last).
+std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px) {
+  const size_t most = std::max<size_t>(1, static_cast<size_t>(std::lround(length_px / step_px)));
+  std::vector<std::pair<size_t, size_t>> stretches;
+  for (size_t i = 0; i < band.cells.size(); ++i) {
+    const bool extends = !stretches.empty() && band.cells[i].follows_previous && i > 0 &&
+                         i - stretches.back().first < most && stretches.back().second == i;
+    if (extends)
+      ++stretches.back().second;
+    else
+      stretches.emplace_back(i, i + 1);
+  }
+  return stretches;
+}
+
+// ---- The rough stage: the strongest step of each stretch, and the line on which most of them lie.
+
+struct RoughPlace {
+  double share = 0;
+  Eigen::Vector2d centre_px, normal_px;  // of the predicted curve there
+  double outward_px = 0;
+  double step = 0;  // grey levels over two bins, signed: positive where the leg is brighter
+};
+
+std::optional<RoughPlace> StrongestStep(const EdgeProfile& profile, const BandCell& middle) {
+  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0};
+  for (size_t i = 2; i + 2 < profile.size(); ++i) {
+    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 || profile[i + 1].count == 0)
+      continue;
+    const double step = (profile[i].brightness + profile[i + 1].brightness - profile[i - 1].brightness -
+                         profile[i - 2].brightness) / 2;
+    if (std::abs(step) <= std::abs(best.step)) continue;
+    best.step = step;
+    best.outward_px = -(profile[i].inside_px + profile[i - 1].inside_px) / 2;
+  }
+  if (best.step == 0) return std::nullopt;
+  return best;
+}
+
+// outward_px = at_a + slope * share + bend * share * (share - 1): the prediction's error along the leg.
+struct RoughCurve {
+  double at_a_px = 0, slope_px = 0, bend_px = 0;
+  double polarity = 0;
+  double support = 0;  // sum over the agreeing stretches of their step's square root
+  int count = 0;
+
+  double At(double share) const { return at_a_px + slope_px * share + bend_px * share * (share - 1); }
+  bool Agrees(const RoughPlace& place) const {
+    return place.step * polarity > 0 && std::abs(place.outward_px - At(place.share)) <= kRoughTolerance_px;
+  }
+};
+
+RoughCurve CurveThrough(const RoughPlace& a, const RoughPlace& b, double bend_px) {
+  const auto straight = [&](const RoughPlace& p) { return p.outward_px - bend_px * p.share * (p.share - 1); };
+  const double slope = (straight(b) - straight(a)) / (b.share - a.share);
+  return {straight(a) - slope * a.share, slope, bend_px, a.step, 0, 0};
+}
+
+// The curve through two of the places, with a bend up to largest_bend_px, on which most of the contrast of one
+// sign lies.
+RoughCurve Consensus(const std::vector<RoughPlace>& places, double largest_bend_px) {
+  RoughCurve best;
+  for (size_t i = 0; i < places.size(); ++i)
+    for (size_t j = i + 1; j < places.size(); ++j) {
+      const RoughPlace &a = places[i], &b = places[j];
+      if (b.share - a.share < 0.1 || a.step * b.step < 0) continue;
+      for (double bend = -largest_bend_px; bend <= largest_bend_px; bend += kBendStep_px) {
+        RoughCurve curve = CurveThrough(a, b, bend);
+        for (const RoughPlace& place : places) {
+          if (!curve.Agrees(place)) continue;
+          curve.support += std::sqrt(std::abs(place.step));
+          ++curve.count;
+        }
+        if (curve.support > best.support) best = curve;
+      }
+    }
+  return best;
+}
+
+// The places that agree with the curve are the samples where only a rough measurement is wanted.
+void KeepAsSamples(const std::vector<RoughPlace>& places, const RoughCurve& curve, Work& work) {
+  work.result->observation = {work.result->leg, work.result->edge, {}, 0};
+  for (const RoughPlace& place : places)
+    if (curve.Agrees(place))
+      work.result->observation.samples.push_back(
+          {place.centre_px + place.outward_px * place.normal_px, place.normal_px, kRoughTolerance_px / 2});
+}
+
+void TraceRoughly(const GrayImage& image, const Camera& camera, const LegEdgeOptions& options, Work& work) {
+  const double reach = options.search_px + 2;
+  const EdgeBand band = CollectBand(image, work.predicted.points, reach, reach);
+  std::vector<RoughPlace> places;
+  for (const auto& [first, last] : Stretches(band, kRoughStretch_px, options.visibility.step_px)) {
+    const EdgeProfile profile = BinProfile(band, first, last, reach, reach, kRoughBin_px);
+    if (const auto place = StrongestStep(profile, band.cells[(first + last) / 2])) places.push_back(*place);
+  }
+  const RoughCurve curve = Consensus(places, options.rough_bend_px);
+  if (curve.count < 3 || curve.count < 0.4 * static_cast<double>(places.size()))
+    work.result->left_out = "no straight edge near the prediction";
+  else if (options.rough_only)
+    KeepAsSamples(places, curve, work);
+  else
+    ShiftEnds(camera, curve.At(0), curve.At(1), work);
+}
+
+// ---- The fine stage: one profile of the whole edge, one blur of the whole image.
+
+void CollectProfile(const GrayImage& image, double place_px, Work& work) {
+  // A little wider than the window of the fit, whose centre moves with the place.
+  work.band = CollectBand(image, work.predicted.points, kOutside_px + 1, kInside_px + 1);
+  Flatten(work.band, place_px);
+  work.profile = BinProfile(work.band, 0, work.band.cells.size(), kOutside_px + 1, kInside_px + 1, kBin_px);
+}
+
+void FitAt(double blur_px, Work& work) {
+  work.fit_options.blur_px = blur_px;
+  work.fit = FitSimplestModel(work.profile, 0, work.fit_options);
+}
+
+// The blur at which the profiles of all edges together fit best, by the parabola through three neighbouring misfits.
+class BlurSearch {
+ public:
+  explicit BlurSearch(const std::vector<Work>& works) : works_(works) {}
+
+  double Find(double start) const {
+    double blur = start;
+    for (const double step : {0.15, 0.1, 0.06, 0.06}) blur = std::clamp(Improve(blur, step), 0.3, 4.0);
+    return blur;
+  }
+
+ private:
+  double Improve(double blur, double step) const {
+    double low = 0, mid = 0, high = 0;
+    for (const Work& work : works_) {
+      if (work.Dropped() || !work.fit) continue;
+      const auto at_mid = FitAtBlur(work, blur, work.fit->place_px);
+      if (!at_mid) continue;
+      const auto at_low = FitAtBlur(work, blur - step, at_mid->place_px);
+      const auto at_high = FitAtBlur(work, blur + step, at_mid->place_px);
+      if (!at_low || !at_high) continue;
+      const double scale = 1 / std::max(at_mid->chi2_per_bin, 1.0);
+      low += scale * at_low->squares;
+      mid += scale * at_mid->squares;
+      high += scale * at_high->squares;
+    }
+    const double curvature = low - 2 * mid + high;
+    if (curvature <= 0) return low < high ? blur - step : blur + step;
+    return blur + std::clamp(0.5 * (low - high) / curvature, -1.5, 1.5) * step;
+  }
+
+  static std::optional<ProfileFit> FitAtBlur(const Work& work, double blur, double start_px) {
+    ProfileFitOptions options = work.fit_options;
+    options.blur_px = std::max(blur, 0.1);
+    return FitProfile(work.profile, work.fit->model, start_px, options);
+  }
+
+  const std::vector<Work>& works_;
+};
+
+// ---- Samples: the place of each stretch, from its own profile.
+
+// One stretch's place, with coefficients of its own: shading changes along a leg.
+void SampleStretch(size_t first, size_t last, Work& work) {
+  const BandCell& cell = work.band.cells[(first + last) / 2];
+  const EdgeProfile profile = BinProfile(work.band, first, last, kOutside_px + 1, kInside_px + 1, kBin_px);
+  ProfileFitOptions options = work.fit_options;
+  options.half_width_px *= work.leg->AxisPoint(0.5).z() / work.leg->AxisPoint(cell.share).z();
+  const auto fit = FitStretch(profile, *work.fit, options);
+  if (!fit || fit->contrast * work.fit->contrast < 0) return;
+  Eigen::Vector2d centre = cell.centre_px;
+  if ((last - first) % 2 == 0)  // an even number of cells: their middle is the end of a cell
+    centre = (centre + work.band.cells[(first + last) / 2 - 1].centre_px) / 2;
+  work.result->observation.samples.push_back({centre - fit->place_px * cell.normal_px, cell.normal_px,
+                                              std::hypot(fit->sigma_px, kStretchMisfit / fit->contrast)});
+}
+
+void Sample(const LegEdgeOptions& options, Work& work) {
+  work.result->observation = {work.result->leg, work.result->edge, {}, 0};
+  for (const auto& [first, last] : Stretches(work.band, options.sample_length_px, options.visibility.step_px))
+    SampleStretch(first, last, work);
+  work.result->observation.common_sigma_px = std::hypot(work.fit->sigma_px, kEdgeMisfit / work.fit->contrast);
+  work.result->contrast = work.fit->contrast;
+  work.result->length_px = work.band.length_px;
+}
+
+// ---- The line through the samples.
+
+// Unit vectors across the normal: changes of it.
+Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& normal) {
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents.col(0) = normal.unitOrthogonal();
+  tangents.col(1) = normal.cross(tangents.col(0));
+  return tangents;
+}
+
+// One Gauss-Newton step of the outline normal towards the samples; drops samples that stand out from the line.
+void FitLine(const Camera& camera, Work& work) {
+  LegEdge& edge = *work.result;
+  edge.normal = work.predicted.normal;
+  if (edge.observation.samples.size() < 2) return;
+  const CameraParameters parameters = ParametersOf(camera);
+  Eigen::Vector3d normal = work.predicted.normal;
+  for (int round = 0; round < 4; ++round) {
+    const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(normal);
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    std::vector<double> residuals;
+    for (const EdgeSample& sample : edge.observation.samples) {
+      const auto distance = DistanceToEdge(parameters, normal, sample.point_px, sample.normal_px);
+      residuals.push_back(distance ? distance->distance_px : std::numeric_limits<double>::infinity());
+      if (!distance) continue;
+      const Eigen::RowVector2d row = distance->d_distance_d_normal * tangents / sample.sigma_px;
+      const double standardised = distance->distance_px / std::hypot(sample.sigma_px, kOutlierFloor_px);
+      const double weight = 1 / (1 + std::pow(standardised / 2, 4));
+      information += weight * row.transpose() * row;
+      moment -= weight * row.transpose() * (distance->distance_px / sample.sigma_px);
+    }
+    normal = (normal + tangents * information.ldlt().solve(moment)).normalized();
+    if (round < 3) continue;
+    edge.normal_covariance = tangents * information.inverse() * tangents.transpose();
+    std::vector<EdgeSample> kept;
+    double squares = 0;
+    for (size_t i = 0; i < residuals.size(); ++i) {
+      const EdgeSample& sample = edge.observation.samples[i];
+      if (std::abs(residuals[i]) > std::max(kOutlierSigmas * sample.sigma_px, kOutlierFloor_px)) continue;
+      kept.push_back(sample);
+      squares += residuals[i] * residuals[i];
+    }
+    edge.observation.samples = std::move(kept);
+    edge.rms_px = edge.observation.samples.empty()
+                      ? 0
+                      : std::sqrt(squares / static_cast<double>(edge.observation.samples.size()));
+  }
+  edge.normal = normal;
+}
+
+void Judge(const LegEdgeOptions& options, Work& work) {
+  LegEdge& edge = *work.result;
+  if (std::abs(edge.contrast) < options.least_contrast)
+    edge.left_out = fmt::format("contrast of only {:.0f} grey levels", std::abs(edge.contrast));
+  else if (edge.observation.common_sigma_px > options.largest_common_sigma_px)
+    edge.left_out = fmt::format("its shading leaves its place open by {:.2f} px", edge.observation.common_sigma_px);
+  else if (edge.observation.samples.size() < 3)
+    edge.left_out = "fewer than three stretches lie on one line";
+}
+
+class Measurement {
+ public:
+  Measurement(const GrayImage& image, const LegsInCamera& legs, const Camera& camera, const LegEdgeOptions& options)
+      : image_(image), legs_(legs), camera_(camera), options_(options) {
+    result_.edges.resize(2 * kLegCount);
+    const PredictedEdges predicted = PredictEdges(legs, camera, options.visibility);
+    for (int i = 0; i < 2 * kLegCount; ++i) {
+      LegEdge& edge = result_.edges[static_cast<size_t>(i)];
+      edge.leg = i / 2;
+      edge.edge = i % 2;
+      works_.push_back({&edge, &legs_[static_cast<size_t>(i / 2)],
+                        predicted[static_cast<size_t>(i / 2)][static_cast<size_t>(i % 2)], {}, {}, {}, {}});
+    }
+    if (options.lock) Lock(predicted);
+    for (Work& work : works_) CheckLength(work);
+  }
+
+  LegEdges Run() {
+    for (Work& work : works_)
+      if (!work.Dropped()) TraceRoughly(image_, camera_, options_, work);
+    if (options_.rough_only) return std::move(result_);
+    for (Work& work : works_)
+      if (!work.Dropped()) CollectProfile(image_, 0, work);
+    result_.grey_noise = CommonGreyNoise();
+    const double first_blur = options_.blur_px.value_or(kFirstBlur_px);
+    for (Work& work : works_) FitFirst(first_blur, work);
+    for (Work& work : works_) Recentre(work);
+    result_.blur_px = options_.blur_px.value_or(AnyLeft() ? BlurSearch(works_).Find(first_blur) : 0);
+    for (Work& work : works_)
+      if (!work.Dropped()) Finish(work);
+    return std::move(result_);
+  }
+
+ private:
+  void Lock(const PredictedEdges& predicted) {
+    const auto locks = LockOnLegs(image_, predicted, *options_.lock);
+    for (Work& work : works_) {
+      const auto& lock = locks[static_cast<size_t>(work.result->leg)];
+      if (!lock) {
+        work.result->left_out = "no leg found near the prediction";
+        continue;
+      }
+      // The lock's shift is towards edge 2: outward for that one, inward for edge 1.
+      const double sign = work.result->edge == 1 ? 1 : -1;
+      ShiftEnds(camera_, sign * lock->shift_at_a_px, sign * lock->shift_at_b_px, work);
+    }
+  }
+
+  void CheckLength(Work& work) const {
+    if (work.Dropped()) return;
+    if (work.predicted.points.empty())
+      work.result->left_out = "not in front of the camera";
+    else if (VisibleLength(work.predicted) < options_.least_length_px)
+      work.result->left_out = MainObstacle(work.predicted);
+  }
+
+  double CommonGreyNoise() const {
+    std::vector<double> noises;
+    for (const Work& work : works_)
+      if (!work.Dropped()) noises.push_back(GreyNoise(work.band));
+    if (noises.empty()) return 0;
+    std::sort(noises.begin(), noises.end());
+    return std::max(noises[noises.size() / 2], kLeastGreyNoise);
+  }
+
+  void FitFirst(double blur_px, Work& work) const {
+    if (work.Dropped()) return;
+    work.fit_options.half_width_px = std::max(work.predicted.half_width_px, 2.0);
+    work.fit_options.grey_noise = result_.grey_noise;
+    work.fit_options.outside_px = kOutside_px;
+    work.fit_options.inside_px = std::min(kInside_px, 0.6 * work.fit_options.half_width_px);
+    FitAt(blur_px, work);
+    if (!work.fit) work.result->left_out = kNoEdge;
+  }
+
+  bool AnyLeft() const {
+    return std::any_of(works_.begin(), works_.end(), [](const Work& work) { return !work.Dropped(); });
+  }
+
+  // A band that lies askew to its edge would look blurred: lays it along the line through the first samples.
+  void Recentre(Work& work) const {
+    if (work.Dropped()) return;
+    Sample(options_, work);
+    FitLine(camera_, work);
+    MoveTo(camera_, work.result->normal, work);
+    CollectProfile(image_, 0, work);
+    FitAt(work.fit_options.blur_px, work);
+    if (!work.fit) work.result->left_out = kNoEdge;
+  }
+
+  void Finish(Work& work) const {
+    FitAt(result_.blur_px, work);
+    if (!work.fit) {
+      work.result->left_out = kNoEdge;
+      return;
+    }
+    Sample(options_, work);
+    FitLine(camera_, work);
+    Judge(options_, work);
+  }
+
+  const GrayImage& image_;
+  const LegsInCamera& legs_;
+  const Camera& camera_;
+  const LegEdgeOptions& options_;
+  LegEdges result_;
+  std::vector<Work> works_;
+};
+
+}  // namespace
+
+void LegEdgeOptions::Check() const {
+  if (!(search_px > 0) || !(least_length_px > 0) || !(sample_length_px > 0) || !(visibility.step_px > 0))
+    throw std::invalid_argument("LegEdgeOptions: lengths must be positive");
+  if (rough_bend_px < 0) throw std::invalid_argument("LegEdgeOptions: rough_bend_px must not be negative");
+  if (lock) lock->Check();
+}
+
+LegEdges MeasureLegEdges(const GrayImage& image, const LegsInCamera& legs, const Camera& camera,
+                         const LegEdgeOptions& options) {
+  options.Check();
+  return Measurement(image, legs, camera, options).Run();
+}
+
+ImageObservation ToObservation(const std::string& name, const std::optional<Vector6d>& joint_readings_m,
+                               const LegEdges& edges) {
+  ImageObservation observation{name, joint_readings_m, {}};
+  for (const LegEdge& edge : edges.edges)
+    if (edge.left_out.empty()) observation.edges.push_back(edge.observation);
+  return observation;
+}
+
+}  // namespace legible

@@ -1,0 +1,35 @@
+// camera.yaml: ROS camera_info YAML, optionally with the camera's place.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/rigid3.h"
+
+namespace legible {
+
+class YamlValue;
+
+struct CameraFile {
+  Camera camera;
+  std::optional<Rigid3> camera_from_base;
+};
+
+// Reads what describes the raw image; of the rest of camera_info, rectification, projection, header and name
+// are passed over. distortion_model: plumb_bob (5 coefficients), rational_polynomial (8), none or nothing
+// (0). Throws InputError for anything else: unknown keys, skew, binning, a region of interest, a focal length
+// that makes no sense for the image size (below 0.2 or above 50 times the width or height).
+CameraFile ReadCamera(const std::filesystem::path& file);
+
+// Writes so that ReadCamera gives back the same bits and ROS reads it too. Throws InputError if the file
+// cannot be written and std::invalid_argument if a number is not finite.
+void WriteCamera(const std::filesystem::path& file, const Camera& camera,
+                 const std::optional<Rigid3>& camera_from_base = std::nullopt);
+
+// The camera alone as a section of another file.
+Camera CameraFromYaml(const YamlValue& section);
+std::string CameraToYaml(const Camera& camera);
+
+}  // namespace legible

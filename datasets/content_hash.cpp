@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "datasets/session_file.h"
+#include "datasets/text.h"
+
+namespace legible {
+namespace {
+
+std::string Sha256(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("OpenSSL cannot compute SHA-256");
+  }
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
+// As sha256sum prints it.
+std::string ChecksumLine(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const std::filesystem::path name = file.lexically_normal().lexically_proximate(folder.lexically_normal());
+  return fmt::format("{}  {}\n", Sha256(ReadBytes(file)), name.generic_string());
+}
+
+}  // namespace
+
+std::string ContentHash(const Session& session) {
+  if (session.files.empty()) throw std::invalid_argument("the session was not read from files");
+  std::string lines;
+  for (const std::filesystem::path& file : session.files) lines += ChecksumLine(file, session.folder);
+  for (const SessionImage& image : session.images) lines += ChecksumLine(image.file, session.folder);
+  return Sha256(lines);
+}
+
+}  // namespace legible

@@ -1,0 +1,131 @@
+#include "datasets/tag_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "datasets/atomic_file.h"
+#include "datasets/text.h"
+#include "datasets/yaml_value.h"
+
+namespace legible {
+namespace {
+
+const std::vector<std::string> kFamilies = {"tag36h11",         "tag25h9",        "tag16h5",
+                                            "tagCircle21h7",    "tagCircle49h12", "tagStandard41h12",
+                                            "tagStandard52h13", "tagCustom48h12"};
+
+const char* CarrierName(TagCarrier carrier) { return carrier == TagCarrier::kBase ? "base" : "platform"; }
+
+std::string PlacementKey(TagCarrier carrier) { return fmt::format("{}_from_group", CarrierName(carrier)); }
+
+TagCarrier CarrierFromYaml(const YamlValue& value) {
+  const std::string name = value.Text();
+  if (name == "base") return TagCarrier::kBase;
+  if (name != "platform") value.Fail(fmt::format("is \"{}\"", name), "give base or platform");
+  return TagCarrier::kPlatform;
+}
+
+// Twice the area that the four corners enclose (m^2).
+double DoubleArea(const std::array<Eigen::Vector3d, 4>& corners_m) {
+  return (corners_m[2] - corners_m[0]).cross(corners_m[3] - corners_m[1]).norm();
+}
+
+Tag TagFromYaml(const YamlValue& section) {
+  section.AllowKeys({"id", "corners_m"});
+  Tag tag;
+  tag.id = section.Get("id").Integer();
+  if (tag.id < 0) section.Fail(fmt::format("has the id {}", tag.id), "give 0 or more");
+  const YamlValue corners = section.Get("corners_m");
+  const std::vector<YamlValue> list = corners.List(4);
+  for (size_t i = 0; i < 4; ++i) tag.corners_m[i] = list[i].Vector3();
+  if (DoubleArea(tag.corners_m) == 0) {
+    corners.Fail("enclose no area",
+                 "give bottom-left, bottom-right, top-right, top-left of the black border");
+  }
+  return tag;
+}
+
+TagGroup GroupFromYaml(const YamlValue& section) {
+  TagGroup group;
+  group.carrier = CarrierFromYaml(section.Get("on"));
+  const std::string placement = PlacementKey(group.carrier);
+  section.AllowKeys({"name", "on", placement, "known", "tags"});
+  group.name = section.Get("name").Text();
+  group.carrier_from_group = section.Get(placement).Rigid();
+  const YamlValue known = section.Get("known");
+  known.AllowKeys({"translation_m", "rotation_rad"});
+  group.translation_sigma_m = known.Get("translation_m").PositiveNumber();
+  group.rotation_sigma_rad = known.Get("rotation_rad").PositiveNumber();
+  for (const YamlValue& tag : section.Get("tags").List()) group.tags.push_back(TagFromYaml(tag));
+  return group;
+}
+
+// A name or an id that is there already means that the file contradicts itself.
+class Once {
+ public:
+  void Demand(const YamlValue& section, const std::string& what) {
+    if (!seen_.insert(what).second)
+      section.Fail(fmt::format("has {}, which is there already", what), "keep one");
+  }
+
+ private:
+  std::set<std::string> seen_;
+};
+
+std::string TagToYaml(const Tag& tag) {
+  std::vector<std::string> corners;
+  for (const Eigen::Vector3d& corner : tag.corners_m) corners.push_back(ListText(corner));
+  return fmt::format("      - {{id: {}, corners_m: [{}]}}\n", tag.id, fmt::join(corners, ", "));
+}
+
+std::string GroupToYaml(const TagGroup& group) {
+  std::string text = fmt::format(
+      "  - name: {}\n"
+      "    on: {}\n"
+      "    {}: {}\n"
+      "    known: {{translation_m: {}, rotation_rad: {}}}  # 1-sigma of that placement\n"
+      "    tags:\n",
+      QuotedText(group.name), CarrierName(group.carrier), PlacementKey(group.carrier),
+      RigidText(group.carrier_from_group), NumberText(group.translation_sigma_m),
+      NumberText(group.rotation_sigma_rad));
+  for (const Tag& tag : group.tags) text += TagToYaml(tag);
+  return text;
+}
+
+}  // namespace
+
+TagLayout ReadTags(const std::filesystem::path& file) {
+  const YamlValue root = YamlValue::LoadFile(file);
+  root.AllowKeys({"family", "groups"});
+  TagLayout layout;
+  const YamlValue family = root.Get("family");
+  layout.family = family.Text();
+  if (std::find(kFamilies.begin(), kFamilies.end(), layout.family) == kFamilies.end()) {
+    family.Fail(fmt::format("is \"{}\", which libapriltag does not have", layout.family),
+                fmt::format("the nearest that it has is {}", NearestName(layout.family, kFamilies)));
+  }
+  Once names_and_ids;
+  for (const YamlValue& section : root.Get("groups").List()) {
+    layout.groups.push_back(GroupFromYaml(section));
+    names_and_ids.Demand(section, fmt::format("the name \"{}\"", layout.groups.back().name));
+    for (const YamlValue& tag : section.Get("tags").List()) {
+      names_and_ids.Demand(tag, fmt::format("the id {}", tag.Get("id").Integer()));
+    }
+  }
+  return layout;
+}
+
+void WriteTags(const std::filesystem::path& file, const TagLayout& tags) {
+  std::string text = fmt::format(
+      "family: {}\n"
+      "# corners_m: the black border's bottom-left, bottom-right, top-right, top-left\n"
+      "groups:\n",
+      tags.family);
+  for (const TagGroup& group : tags.groups) text += GroupToYaml(group);
+  WriteFileAtomically(file, text);
+}
+
+}  // namespace legible

@@ -1,0 +1,205 @@
+#include "calib/leg_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/calib/truth_problem.h"
+#include "tests/testing/matrices.h"
+
+namespace legible {
+namespace {
+
+LegCalibrationInput InputOf(const SyntheticSession& session,
+                            const std::vector<ImageObservation>& observations) {
+  LegCalibrationInput input{
+      session.nominal_robot, session.nominal_camera, session.nominal_camera_from_base, observations, {}, {}};
+  input.known.joint_reading_m = 2e-5;
+  return input;
+}
+
+SyntheticOptions FewImages() {
+  SyntheticOptions options;
+  options.image_count = 12;
+  return options;
+}
+
+SharedParameters FoundParameters(const LegCalibration& found) {
+  SharedParameters shared;
+  shared.camera = ParametersOf(found.camera);
+  for (size_t i = 0; i < kLegCount; ++i)
+    shared.legs[i] << found.base_joints_in_camera_m[i], found.robot.legs[i].platform_joint_m,
+        found.robot.legs[i].radius_m, found.robot.legs[i].joint_offset_m, found.shading_px[i];
+  return shared;
+}
+
+// Differences by part, relative to the size of each.
+void ExpectNearTruth(const SharedParameters& found, const SharedParameters& truth, double relative) {
+  EXPECT_TRUE(
+      AreNear(found.camera.head<4>() / truth.camera[0], truth.camera.head<4>() / truth.camera[0], relative));
+  EXPECT_TRUE(AreNear(found.camera.tail<8>(), truth.camera.tail<8>(), 10 * relative));
+  for (size_t i = 0; i < kLegCount; ++i) {
+    const LegParameters &leg = found.legs[i], &expected = truth.legs[i];
+    EXPECT_TRUE(AreNear(leg.head<3>() / expected.head<3>().norm(),
+                        expected.head<3>() / expected.head<3>().norm(), relative));
+    EXPECT_TRUE(AreNear(leg.segment<3>(3) / expected.segment<3>(3).norm(),
+                        expected.segment<3>(3) / expected.segment<3>(3).norm(), relative));
+    EXPECT_NEAR(leg[leg_parameter::kRadius] / expected[leg_parameter::kRadius], 1, relative);
+    EXPECT_NEAR(leg[leg_parameter::kJointOffset], expected[leg_parameter::kJointOffset], 0.4 * relative);
+  }
+}
+
+TEST(LegCalibration, FindsTheTruthOfExactObservations) {
+  for (const bool is_distorted : {false, true}) {
+    SyntheticOptions options = FewImages();
+    options.camera = DesktopCamera(is_distorted);
+    const SyntheticSession session = GenerateSession(options);
+    const LegCalibration found = CalibrateLegs(InputOf(session, session.exact_observations), {});
+    EXPECT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+    EXPECT_LT(found.rms_px, 1e-6);
+    ExpectNearTruth(FoundParameters(found), TrueParameters(session), 1e-6);
+  }
+}
+
+TEST(LegCalibration, FindsTheSameTwice) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibrationInput input = InputOf(session, session.observations);
+  const LegCalibration first = CalibrateLegs(input, {}), second = CalibrateLegs(input, {});
+  EXPECT_EQ(first.iterations, second.iterations);
+  EXPECT_TRUE(AreNear(ParametersOf(first.camera), ParametersOf(second.camera), 0));
+  for (size_t i = 0; i < kLegCount; ++i)
+    EXPECT_TRUE(AreNear(FoundParameters(first).legs[i], FoundParameters(second).legs[i], 0));
+  EXPECT_TRUE(AreNear(first.observability.covariance, second.observability.covariance, 0));
+}
+
+TEST(LegCalibration, BaseFrameIsTheRigidFitOfTheBaseJointsToTheDrawing) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
+  std::vector<Eigen::Vector3d> drawn, in_camera;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    drawn.push_back(session.nominal_robot.legs[i].base_joint_m);
+    in_camera.push_back(found.base_joints_in_camera_m[i]);
+    EXPECT_TRUE(AreNear(found.camera_from_base * found.robot.legs[i].base_joint_m, in_camera.back(), 1e-12));
+  }
+  EXPECT_TRUE(
+      AreNear(Displacement(FitRigid(drawn, in_camera), found.camera_from_base), Vector6d::Zero(), 1e-12));
+}
+
+TEST(LegCalibration, PlatformFrameIsTheRigidFitOfThePlatformJointsToTheDrawing) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
+  std::vector<Eigen::Vector3d> drawn, in_platform;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    drawn.push_back(session.nominal_robot.legs[i].platform_joint_m);
+    in_platform.push_back(found.robot.legs[i].platform_joint_m);
+  }
+  EXPECT_TRUE(AreNear(Displacement({}, FitRigid(in_platform, drawn)), Vector6d::Zero(), 1e-9));
+}
+
+TEST(LegCalibration, NoiseIsEstimatedFromTheResiduals) {
+  SyntheticOptions options = FewImages();
+  const SyntheticSession session = GenerateSession(options);
+  LegCalibrationInput input = InputOf(session, session.observations);
+  for (ImageObservation& image : input.images)
+    for (EdgeObservation& edge : image.edges)
+      for (EdgeSample& sample : edge.samples) sample.sigma_px = 1;
+  const LegCalibration found = CalibrateLegs(input, {});
+  EXPECT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  EXPECT_NEAR(found.edge_sigma_px, options.edge_sigma_px, 0.05 * options.edge_sigma_px);
+}
+
+TEST(LegCalibration, KeepsWhatIsHeld) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  input.camera = session.true_camera;
+  LegCalibrationOptions options;
+  options.hold.focal_length = options.hold.principal_point = options.hold.distortion = true;
+  options.hold.platform_joints = options.hold.radii = true;
+  const LegCalibration found = CalibrateLegs(input, options);
+  EXPECT_TRUE(AreNear(ParametersOf(found.camera), ParametersOf(input.camera), 0));
+  for (size_t i = 0; i < kLegCount; ++i) {
+    EXPECT_EQ(found.robot.legs[i].radius_m, input.drawing.legs[i].radius_m);
+    EXPECT_TRUE(AreNear(found.robot.legs[i].platform_joint_m, input.drawing.legs[i].platform_joint_m, 0));
+  }
+}
+
+TEST(LegCalibration, IgnoresImagesWithoutEdges) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  const LegCalibration without = CalibrateLegs(input, {.threads = 1});
+  input.images.push_back({"empty", input.images[0].joint_readings_m, {}});
+  const LegCalibration with = CalibrateLegs(input, {.threads = 1});
+  EXPECT_TRUE(AreNear(ParametersOf(with.camera), ParametersOf(without.camera), 0));
+  EXPECT_EQ(with.camera_from_platform.size(), input.images.size());
+}
+
+TEST(LegCalibration, SaysSoWhereLegsAreFree) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations),
+                                             {.use_joint_readings = false, .rigid_platform = false});
+  EXPECT_EQ(found.status, CalibrationStatus::kUnobservable);
+  EXPECT_EQ(found.observability.unobservable.size(), 6);
+  EXPECT_NE(found.message.find("give joint readings, a radius, or a tag"), std::string::npos)
+      << found.message;
+}
+
+TEST(LegCalibration, SaysSoWhereObservationsAreTooFew) {
+  SyntheticOptions options;
+  options.image_count = 1;
+  options.samples_per_edge = 2;
+  const SyntheticSession session = GenerateSession(options);
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
+  EXPECT_EQ(found.status, CalibrationStatus::kTooFewObservations);
+  EXPECT_FALSE(found.message.empty());
+  EXPECT_EQ(CalibrateLegs(InputOf(session, {}), {}).status, CalibrationStatus::kTooFewObservations);
+}
+
+TEST(LegCalibration, OneImageLeavesTheRobotOpen) {
+  SyntheticOptions options;
+  options.image_count = 1;
+  const SyntheticSession session = GenerateSession(options);
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
+  EXPECT_EQ(found.status, CalibrationStatus::kUnobservable) << ToString(found.status);
+}
+
+TEST(LegCalibration, RejectsMalformedInput) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibrationInput good = InputOf(session, session.observations);
+  LegCalibrationInput bad = good;
+  bad.images[0].edges[0].leg = kLegCount;
+  EXPECT_THROW(CalibrateLegs(bad, {}), std::invalid_argument);
+  bad = good;
+  bad.images[0].edges[0].edge = 2;
+  EXPECT_THROW(CalibrateLegs(bad, {}), std::invalid_argument);
+  bad = good;
+  bad.start = CalibrationStart{good.camera, good.drawing, good.camera_from_base, {}};
+  EXPECT_THROW(CalibrateLegs(bad, {}), std::invalid_argument);
+  EXPECT_THROW(CalibrateLegs(good, {.max_iterations = 0}), std::invalid_argument);
+  EXPECT_THROW(CalibrateLegs(good, {.threads = 0}), std::invalid_argument);
+  EXPECT_THROW(CalibrateLegs(good, {.default_joint_reading_sigma_m = 0}), std::invalid_argument);
+}
+
+TEST(LegCalibration, RejectsSamplesWithoutAFiniteSigma) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  for (const double sigma_px : {0.0, -1.0, std::nan("")}) {
+    LegCalibrationInput bad = InputOf(session, session.observations);
+    bad.images[0].edges[0].samples[0].sigma_px = sigma_px;
+    EXPECT_THROW(CalibrateLegs(bad, {}), std::invalid_argument) << sigma_px;
+  }
+}
+
+TEST(LegCalibration, BaseJointsInBaseFollowTheSharedParametersWithoutTheirCommonMotion) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
+  const auto derivative = BaseJointsFromShared(found);
+  // A motion of all base joints together in the camera frame does not show.
+  const Eigen::Vector3d shift(0.1, -0.2, 0.3), turn(-0.2, 0.1, 0.3);
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(kSharedParameterCount);
+  for (int leg = 0; leg < kLegCount; ++leg)
+    motion.segment<3>(FirstParameterOfLeg(leg)) =
+        shift + turn.cross(found.base_joints_in_camera_m[static_cast<size_t>(leg)]);
+  EXPECT_TRUE(AreNear(derivative * motion, Eigen::VectorXd::Zero(18), 1e-12));
+}
+
+}  // namespace
+}  // namespace legible

@@ -1,0 +1,33 @@
+// The estimation problem of a synthetic session, standing at its truth in the estimator's gauge.
+#pragma once
+
+#include <vector>
+
+#include "calib/estimation_problem.h"
+#include "datasets/synthetic_session.h"
+
+namespace legible {
+
+// platform' from platform, where platform' is the rigid fit of the true B to the drawn ones.
+Rigid3 GaugeFromPlatform(const SyntheticSession& session);
+
+// A in the camera frame, B in the frame that fits them to the drawing best.
+SharedParameters TrueParameters(const SyntheticSession& session);
+
+struct TruthProblemOptions {
+  bool rigid_platform = true;
+  bool joint_readings = true;
+  double joint_reading_sigma_m = 2e-5;
+  EdgeNoise noise;
+};
+
+// What CalibrateLegs would solve for these observations of the session (Brown-Conrady lens, nothing else
+// known), with every unknown at its true value. Points into `observations`, which must outlive it.
+EstimationProblem ProblemAtTruth(const SyntheticSession& session,
+                                 const std::vector<ImageObservation>& observations,
+                                 const TruthProblemOptions& options);
+
+// Indices of the free shared parameters, ascending.
+std::vector<int> FreeIndices(const EstimationProblem& problem);
+
+}  // namespace legible
