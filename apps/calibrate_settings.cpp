@@ -83,9 +83,11 @@ std::string LensName(LensModel lens) {
 std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (!Find(kKnown, name)) throw std::invalid_argument(fmt::format("\"{}\" is none of {}", name, fmt::join(KnownNames(), ", ")));
+  if (!Find(kKnown, name))
+    throw std::invalid_argument(fmt::format("\"{}\" is none of {}", name, fmt::join(KnownNames(), ", ")));
   if (equals == std::string::npos)
-    throw std::invalid_argument(fmt::format("\"{}\" has no value: give {}=SIGMA or {}=none", text, name, name));
+    throw std::invalid_argument(
+        fmt::format("\"{}\" has no value: give {}=SIGMA or {}=none", text, name, name));
   const std::string value = text.substr(equals + 1);
   if (value == "none") return {name, std::nullopt};
   const std::optional<double> sigma = ParseFinite(value);
@@ -95,7 +97,8 @@ std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text
   return {name, sigma};
 }
 
-PriorKnowledge WithSettings(PriorKnowledge known, const CalibrateSettings& settings) {
+PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettings& settings) {
+  PriorKnowledge known = settings.free_legs ? PriorKnowledge{} : session;
   for (const auto& [name, sigma] : settings.known) known.*Find(kKnown, name).value() = sigma;
   return known;
 }
@@ -115,8 +118,10 @@ std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowled
   if (UsesReadings(settings)) return "The joint readings and one rigid platform tie the legs together.";
   if (AssumesRigidPlatform(settings, known))
     return "The joint readings are left out; one rigid platform ties the legs together.";
-  const std::string edges_only = "Edges only: nothing ties the legs together, each one's direction is free in each image";
-  return edges_only + (settings.free_legs ? "." : ", for without joint readings nothing known sets their scale.");
+  const std::string edges_only =
+      "Edges only: nothing ties the legs together, each one's direction is free in each image";
+  return edges_only +
+         (settings.free_legs ? "." : ", for without joint readings nothing known sets their scale.");
 }
 
 SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known) {

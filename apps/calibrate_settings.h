@@ -16,11 +16,11 @@ struct CalibrateSettings {
   std::filesystem::path session;
   std::filesystem::path out = "calibration";
   bool prints_json = false;
-  std::optional<LensModel> lens;  // none: the session camera's
-  std::vector<std::string> hold;  // names of HoldNames()
+  std::optional<LensModel> lens;                                     // none: the session camera's
+  std::vector<std::string> hold;                                     // names of HoldNames()
   std::vector<std::pair<std::string, std::optional<double>>> known;  // names of KnownNames(); none: forgotten
   bool use_readings = true;
-  bool free_legs = false;
+  bool free_legs = false;  // edges only
   int folds = 5;
   int threads = 2;
   bool embeds_pictures = true;
@@ -38,13 +38,17 @@ std::vector<std::string> KnownNames();
 // "radius_m=0.0005" or "radius_m=none" taken apart. Throws std::invalid_argument with a message for the user.
 std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text);
 
-// What is known beforehand, by the session and then by the settings; by KnownNames().
-PriorKnowledge WithSettings(PriorKnowledge known, const CalibrateSettings& settings);
+// What is known beforehand: what the session says (with free legs, nothing), and over it what the settings
+// say.
+PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettings& settings);
+
+// By KnownNames(), without what is not known.
 std::vector<std::pair<std::string, double>> NamedKnowledge(const PriorKnowledge& known);
 
-// Joint readings, or a size that is known beforehand or held, set the scale of a robot whose legs hang on one rigid
-// platform. Where nothing does, the platform's rigidity is not assumed either ("edges only"): the answer then names
-// the scale of each leg that is open, which is what the user has to supply, instead of one for the whole.
+// Joint readings, or a size that is known beforehand or held, set the scale of a robot whose legs hang on one
+// rigid platform. Where nothing does, the platform's rigidity is not assumed either ("edges only"): the
+// answer then names the scale of each leg that is open, which is what the user has to supply, instead of one
+// for the whole.
 bool AssumesRigidPlatform(const CalibrateSettings& settings, const PriorKnowledge& known);
 
 // What ties the legs to one another, in a sentence.
@@ -53,7 +57,8 @@ std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowled
 // The library's options; progress is left to the caller.
 SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known);
 
-// The options that change the result, as they would be typed: "--hold radii --folds 0"; "none" if all are default.
+// The options that change the result, as they would be typed: "--hold radii --folds 0"; "none" if all are
+// default.
 std::string OptionsText(const CalibrateSettings& settings);
 
 }  // namespace legible

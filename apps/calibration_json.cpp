@@ -18,7 +18,9 @@ ordered_json List(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return std::vector<double>(values.data(), values.data() + values.size());
 }
 
-ordered_json OrNull(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(); }
+ordered_json OrNull(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
 
 // fx, fy, cx, cy and the first coefficients of k1 k2 p1 p2 k3 k4 k5 k6.
 ordered_json CameraValues(const CameraParameters& values, LensModel lens) {
@@ -106,8 +108,10 @@ ordered_json TagChecksJson(const std::vector<TagCheck>& checks) {
 
 ordered_json TimesJson(const CalibrationRun& run) {
   const StageTimes& times = run.result.times;
-  return {{"read", times.read_s},   {"detect", times.detect_s},     {"solve", times.solve_s}, {"covariance", times.covariance_s},
-          {"held_out", times.held_out_s}, {"report", run.report_s}, {"total", times.total_s}};
+  return {{"read", times.read_s},         {"detect", times.detect_s},
+          {"solve", times.solve_s},       {"covariance", times.covariance_s},
+          {"held_out", times.held_out_s}, {"report", run.report_s},
+          {"total", times.total_s}};
 }
 
 // How well the model explains the observations; nothing is known of that where there was no fit.

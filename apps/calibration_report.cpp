@@ -7,7 +7,6 @@
 
 #include "apps/calibration_json.h"
 #include "apps/program.h"
-#include "apps/report_images.h"
 
 namespace legible {
 namespace {
@@ -15,9 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-constexpr const char* kFocalNames[] = {"fx_px", "fy_px"};
-constexpr const char* kCentreNames[] = {"cx_px", "cy_px"};
-constexpr const char* kCoefficientNames[] = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
 
 // Of the parameters that were estimated and that a number may be given for.
 json CorrelationsJson(const LegCalibration& calibration) {
@@ -64,16 +60,15 @@ class PriorList {
 void AddCameraPriors(const CalibrationRun& run, const FoundParameters& found, PriorList& priors) {
   const PriorKnowledge& known = run.session.known;
   const CameraParameters guess = ParametersOf(run.session.camera);
-  const auto add = [&](const char* name, int i, const std::optional<double>& sigma) {
-    priors.Add(fmt::format("camera.{}", name), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
-  };
-  for (int i = 0; i < 2; ++i) add(kFocalNames[i], i, known.focal_length_px);
-  for (int i = 0; i < 2; ++i) add(kCentreNames[i], 2 + i, known.principal_point_px);
-  for (int i = 0; i < 8; ++i) add(kCoefficientNames[i], 4 + i, known.distortion);
+  for (int i = 0; i < kCameraParameterCount; ++i) {
+    const auto& sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
+    priors.Add(ParameterName(i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
+  }
 }
 
-// The base joints are known up to where the base as a whole is, and the base frame is the rigid fit to the drawing:
-// in that frame found minus drawn is what is compared with their sigma. The same holds for the platform.
+// The base joints are known up to where the base as a whole is, and the base frame is the rigid fit to the
+// drawing: in that frame found minus drawn is what is compared with their sigma. The same holds for the
+// platform.
 json PriorsJson(const CalibrationRun& run, const FoundParameters& found) {
   PriorList priors;
   AddCameraPriors(run, found, priors);
@@ -96,11 +91,12 @@ json PriorsJson(const CalibrationRun& run, const FoundParameters& found) {
 json ReadingsCheck(const CalibrationRun& run) {
   const LegCalibrationOptions& estimation = run.options.estimation;
   const double sigma_m = run.session.known.joint_reading_m.value_or(estimation.default_joint_reading_sigma_m);
-  return {{"name", "joint readings"},
-          {"text", fmt::format("they miss the model's leg lengths by {:.2f} of their σ of {:.3g} mm (they take "
-                               "part in the fit; much more than 1 means that σ is too small, or a leg bends)",
-                               run.result.calibration.reading_rms, 1e3 * sigma_m)},
-          {"mm", 1e3 * sigma_m * run.result.calibration.reading_rms}};
+  return {
+      {"name", "joint readings"},
+      {"text", fmt::format("they miss the model's leg lengths by {:.2f} of their σ of {:.3g} mm (they take "
+                           "part in the fit; much more than 1 means that σ is too small, or a leg bends)",
+                           run.result.calibration.reading_rms, 1e3 * sigma_m)},
+      {"mm", 1e3 * sigma_m * run.result.calibration.reading_rms}};
 }
 
 json ChecksJson(const CalibrationRun& run) {
@@ -110,8 +106,8 @@ json ChecksJson(const CalibrationRun& run) {
                       {"text", TagSentence(run.session, check)},
                       {"rms_px", check.rms_px},
                       {"mm", 1e3 * check.rms_m}});
-  const bool has_readings =
-      run.options.estimation.use_joint_readings && run.result.calibration.status == CalibrationStatus::kConverged;
+  const bool has_readings = run.options.estimation.use_joint_readings &&
+                            run.result.calibration.status == CalibrationStatus::kConverged;
   if (has_readings) checks.push_back(ReadingsCheck(run));
   return checks;
 }
@@ -131,20 +127,12 @@ json OptionsJson(const CalibrationRun& run) {
 
 }  // namespace
 
-std::string TagSentence(const Session& session, const TagCheck& check) {
-  bool on_platform = false;
-  for (const TagGroup& group : session.tags->groups)
-    if (group.name == check.group) on_platform = group.carrier == TagCarrier::kPlatform;
-  return fmt::format("tags {} on the {}, seen in {} images, lie within {:.3f} mm ({:.3f} px) rms of where the model {}",
-                     check.group, on_platform ? "platform" : "base", check.images, 1e3 * check.rms_m, check.rms_px,
-                     on_platform ? "puts them from the joint readings alone" : "puts them");
-}
-
-json ReportData(const CalibrationRun& run, const FoundParameters& found, const nlohmann::ordered_json& calibration) {
+json ReportData(const CalibrationRun& run, const FoundParameters& found,
+                const nlohmann::ordered_json& calibration, const json& images) {
   json data = {{"title", run.session.robot.name.empty() ? "Hexapod" : run.session.robot.name},
                {"program_version", ProgramVersion()},
                {"session", SessionPath(run)},
-               {"images", ReportImages(run)},
+               {"images", images},
                {"correlations", CorrelationsJson(run.result.calibration)},
                {"priors", PriorsJson(run, found)},
                {"checks", ChecksJson(run)},

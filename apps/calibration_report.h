@@ -8,8 +8,9 @@
 
 namespace legible {
 
-// What RenderReportPage takes; `calibration` is the document of CalibrationJson.
+// What RenderReportPage takes; `calibration` is the document of CalibrationJson, `images` of
+// ReportImages.
 nlohmann::json ReportData(const CalibrationRun& run, const FoundParameters& found,
-                          const nlohmann::ordered_json& calibration);
+                          const nlohmann::ordered_json& calibration, const nlohmann::json& images);
 
 }  // namespace legible

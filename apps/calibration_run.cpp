@@ -1,5 +1,7 @@
 #include "apps/calibration_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace legible {
@@ -7,8 +9,8 @@ namespace {
 
 bool IsUsed(const LegEdge& edge) { return edge.left_out.empty(); }
 
-// Positions in the result of the images that were given to the estimation: those that could be read, and so were
-// searched for edges.
+// Positions in the result of the images that were given to the estimation: those that could be read, and so
+// were searched for edges.
 std::vector<size_t> ImagesOfEstimation(const SessionCalibration& result) {
   std::vector<size_t> images;
   for (size_t i = 0; i < result.images.size(); ++i)
@@ -56,6 +58,20 @@ std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run) {
   for (size_t k = 0; k < images.size(); ++k)
     if (WhyLeftOut(run.result.images[images[k]]).empty()) poses[images[k]] = found.at(k);
   return poses;
+}
+
+std::string TagSentence(const Session& session, const TagCheck& check) {
+  bool on_platform = false;
+  for (const TagGroup& group : session.tags->groups)
+    if (group.name == check.group) on_platform = group.carrier == TagCarrier::kPlatform;
+  const std::string predicted =
+      on_platform ? "the joint readings alone and the model put them" : "the model puts them";
+  return fmt::format(
+      "tags {} on the {}, seen in {} images, lie within {:.3f} mm ({:.3f} px) rms of where {}, their own "
+      "place on it "
+      "fitted",
+      check.group, on_platform ? "platform" : "base", check.images, 1e3 * check.rms_m, check.rms_px,
+      predicted);
 }
 
 }  // namespace legible

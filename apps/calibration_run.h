@@ -31,8 +31,11 @@ int CountUsedEdges(const SessionCalibration& result);
 // The residuals of each image's edges, by image of the result; an image that took no part has none.
 std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionCalibration& result);
 
-// The platform's pose in the camera of each image of the result, as fitted to its edges; nothing for images that
-// took no part, and where no rigid platform was assumed.
+// The platform's pose in the camera of each image of the result, as fitted to its edges; nothing for images
+// that took no part, and where no rigid platform was assumed.
 std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run);
+
+// What a check by tags says, in a clause.
+std::string TagSentence(const Session& session, const TagCheck& check);
 
 }  // namespace legible

@@ -10,8 +10,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Vector3d kUnknownPoint = Eigen::Vector3d::Constant(kUnknown);
 
 FoundLeg UnknownLeg() {
-  return {kUnknownPoint, kUnknownPoint, kUnknownPoint, kUnknown, kUnknown,
-          {kUnknownPoint, kUnknownPoint, kUnknownPoint, kUnknown, kUnknown}};
+  return {kUnknownPoint, kUnknownPoint, kUnknownPoint,
+          kUnknown,      kUnknown,      {kUnknownPoint, kUnknownPoint, kUnknownPoint, kUnknown, kUnknown}};
 }
 
 double IfKnown(double value, double sigma) { return std::isnan(sigma) ? kUnknown : value; }

@@ -16,7 +16,8 @@ struct FoundLeg {
   LegSigma sigma;  // 0: held
 };
 
-// NaN, value and sigma alike, where the data do not determine a parameter or it had no part in the estimation.
+// NaN, value and sigma alike, where the data do not determine a parameter or it had no part in the
+// estimation.
 struct FoundParameters {
   CameraParameters camera, camera_sigma;
   std::optional<Rigid3> camera_from_base;

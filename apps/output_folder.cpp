@@ -17,8 +17,8 @@ std::vector<fs::path> MissingFolders(fs::path folder) {
   return missing;
 }
 
-// Where files wait, in the folder that they are for so that moving them is one step each. Gone afterwards, and so
-// are the folders that were made for this and stayed empty.
+// Where files wait, in the folder that they are for so that moving them is one step each. Gone afterwards,
+// and so are the folders that were made for this and stayed empty.
 class Staging {
  public:
   explicit Staging(const fs::path& folder)
@@ -52,7 +52,8 @@ void OrInputError(const fs::path& folder, Action action) {
   try {
     action();
   } catch (const fs::filesystem_error& error) {
-    throw InputError(folder, 0, "cannot be written: " + error.code().message(), "name another folder with --out");
+    throw InputError(folder, 0, "cannot be written: " + error.code().message(),
+                     "name another folder with --out");
   }
 }
 

@@ -9,9 +9,10 @@
 namespace legible {
 namespace {
 
-constexpr char kDescription[] = "Calibrates parallel robots by the edges of their legs, seen by one fixed camera.";
-constexpr char kFooter[] = R"(
-Exit codes: 0 success; 1 the computation ended without a usable result; 2 bad usage or bad input.
+constexpr char kDescription[] =
+    "Calibrates parallel robots by the edges of their legs, seen by one fixed camera.";
+constexpr char kFooter[] =
+    R"(Exit codes: 0 success; 1 the computation ended without a usable result; 2 bad usage or bad input.
 `legible COMMAND --help` explains a command.)";
 
 // The command line as far as it could be understood: "legible calibrate".
@@ -20,8 +21,17 @@ std::string CommandOf(const CLI::App& app) {
   return commands.empty() ? app.get_name() : app.get_name() + " " + commands.front()->get_name();
 }
 
+// "unknown option --ot", or "unexpected argument b".
+std::string WhatIsUnexpected(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  const auto option =
+      std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.starts_with('-'); });
+  return option == words.end() ? "unexpected argument " + words.front() : "unknown option " + *option;
+}
+
 int ReportUsageError(const CLI::App& app, const CLI::ParseError& error, std::ostream& err) {
-  std::string what = error.what();
+  const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  std::string what = is_unexpected ? WhatIsUnexpected(app) : error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');
   err << "legible: " << what << "; see `" << CommandOf(app) << " --help`\n";
   return kExitBadInput;
@@ -52,7 +62,6 @@ int RunProgram(const std::vector<std::string>& arguments, const Console& console
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.get_formatter()->label("Subcommands", "Commands");
   try {
     return ParseAndRun(app, arguments, console);
   } catch (const InputError& error) {

@@ -8,8 +8,8 @@
 
 namespace legible {
 
-// Rewrites its line with every Show, from any thread, and leaves none behind. Silent where the console's `err` is
-// no terminal.
+// Rewrites its line with every Show, from any thread, and leaves none behind. Silent where the console's
+// `err` is no terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(const Console& console) : console_(console) {}

@@ -18,7 +18,9 @@ constexpr double kOutlineStep_px = 24;  // lenses bend an edge by less than 0.01
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Short texts keep the page small.
-double Rounded(double value, double step = 1e-3) { return std::round(value / step) * step; }
+double Rounded(double value, double steps_per_unit = 1e3) {
+  return std::round(value * steps_per_unit) / steps_per_unit;
+}
 
 struct ResidualSummary {
   double rms_px = kUnknown, mean_px = kUnknown;
@@ -65,13 +67,14 @@ json SamplesJson(const LegEdge& edge, const EdgeResidualSet* residuals,
     const auto row = static_cast<Eigen::Index>(i);
     const double residual_px = residuals ? residuals->residual_px[row] : kUnknown;
     const double weight = residuals ? residuals->weight[row] : kUnknown;
-    samples.push_back({Rounded(point.x()), Rounded(point.y()), Rounded(residual_px, 1e-4), Rounded(weight),
+    samples.push_back({Rounded(point.x()), Rounded(point.y()), Rounded(residual_px, 1e4), Rounded(weight),
                        Rounded(PlaceAlongLeg(outline, point))});
   }
   return samples;
 }
 
-json EdgeJson(const LegEdge& edge, double blur_px, const Residuals& residuals_of_image, const PredictedEdges& predicted) {
+json EdgeJson(const LegEdge& edge, double blur_px, const Residuals& residuals_of_image,
+              const PredictedEdges& predicted) {
   const auto own = std::find_if(
       residuals_of_image.begin(), residuals_of_image.end(),
       [&](const EdgeResidualSet* set) { return set->leg == edge.leg && set->edge == edge.edge; });
@@ -81,8 +84,8 @@ json EdgeJson(const LegEdge& edge, double blur_px, const Residuals& residuals_of
   return {{"leg", edge.leg + 1},
           {"edge", edge.edge + 1},
           {"left_out", edge.left_out.empty() ? json() : json(edge.left_out)},
-          {"rms_px", Rounded(summary.rms_px, 1e-4)},
-          {"shift_px", Rounded(summary.mean_px, 1e-4)},
+          {"rms_px", Rounded(summary.rms_px, 1e4)},
+          {"shift_px", Rounded(summary.mean_px, 1e4)},
           {"blur_px", edge.left_out.empty() ? Rounded(blur_px) : kUnknown},
           {"samples", SamplesJson(edge, residuals, outline)},
           {"predicted", OutlineJson(outline)}};

@@ -23,7 +23,8 @@ std::string Base64(const std::vector<unsigned char>& bytes) {
 std::string EmbedPicture(const std::filesystem::path& file) {
   const cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   std::vector<unsigned char> jpeg;
-  if (image.empty() || !cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality})) return "";
+  if (image.empty() || !cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}))
+    return "";
   return "data:image/jpeg;base64," + Base64(jpeg);
 }
 

@@ -7,7 +7,8 @@
 
 namespace legible {
 
-// The images as grey JPEG in "data:" addresses, empty where a file cannot be read. Works on `threads` at a time.
+// The images as grey JPEG in "data:" addresses, empty where a file cannot be read. Works on `threads` at a
+// time.
 std::vector<std::string> EmbedPictures(const std::vector<std::filesystem::path>& files, int threads);
 
 }  // namespace legible

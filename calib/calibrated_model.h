@@ -8,8 +8,8 @@
 
 namespace legible {
 
-// Covariance of the parameters that a model is used with: the camera's, then for each leg A in base, B in platform,
-// R and joint offset, in the gauges of LegCalibration; parameters that were held have zero rows.
+// Covariance of the parameters that a model is used with: the camera's, then for each leg A in base, B in
+// platform, R and joint offset, in the gauges of LegCalibration; parameters that were held have zero rows.
 struct ModelCovariance {
   std::vector<std::string> names;
   Eigen::MatrixXd covariance;
@@ -20,14 +20,16 @@ ModelCovariance CovarianceOfModel(const LegCalibration& calibration);
 // Provenance is the caller's to add.
 CalibratedModel ToModel(const LegCalibration& calibration);
 
-// One standard deviation of a leg's parameters (m) in CovarianceOfModel, and of A in the camera frame; NaN: not known.
+// One standard deviation of a leg's parameters (m) in CovarianceOfModel, and of A in the camera frame; NaN:
+// not known.
 struct LegSigma {
   Eigen::Vector3d base_joint_m, base_joint_in_camera_m, platform_joint_m;
   double radius_m, joint_offset_m;
 };
 LegSigma SigmaOfLeg(const LegCalibration& calibration, const ModelCovariance& model, int leg);
 
-// One standard deviation of the camera's parameters in the order of CameraParameters; 0: held, NaN: not known.
+// One standard deviation of the camera's parameters in the order of CameraParameters; 0: held, NaN: not
+// known.
 CameraParameters SigmaOfCamera(const LegCalibration& calibration);
 
 }  // namespace legible

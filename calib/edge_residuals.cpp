@@ -17,7 +17,8 @@ Eigen::VectorXd PlacesAlong(const EdgeObservation& edge) {
   return places;
 }
 
-std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera, const Eigen::Vector3d& a_in_camera,
+std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,
+                                             const Eigen::Vector3d& a_in_camera,
                                              const Eigen::Vector3d& b_in_camera, double radius_m,
                                              const EdgeObservation& edge) {
   const PluckerLine<double> axis = LineThrough<double>(a_in_camera, b_in_camera);

@@ -22,14 +22,15 @@ struct EdgeNoise {
 // Each leg's edges have a lighting, and so a noise, of their own.
 using NoiseByEdge = std::array<std::array<EdgeNoise, 2>, kLegCount>;
 
-// An edge's samples with the linear map that whitens their residuals: rows are divided by their sigma, then the
-// common shift and tilt, unknown with their variances, are projected out as far as those say:
-// W = (I - V diag(1 - 1/sqrt(1 + l^2)) V^T) S^-1/2 with S^-1/2 [shift, tilt] = V diag(l) Q^T.
+// An edge's samples with the linear map that whitens their residuals: rows are divided by their sigma, then
+// the common shift and tilt, unknown with their variances, are projected out as far as those say: W = (I - V
+// diag(1 - 1/sqrt(1 + l^2)) V^T) S^-1/2 with S^-1/2 [shift, tilt] = V diag(l) Q^T.
 class WhitenedEdge {
  public:
-  // robust_weights: one in [0, 1] for each sample (1 = fully trusted); throws std::invalid_argument on another
-  // number of them.
-  WhitenedEdge(const EdgeObservation& observation, const EdgeNoise& noise, const Eigen::VectorXd& robust_weights);
+  // robust_weights: one in [0, 1] for each sample (1 = fully trusted); throws std::invalid_argument on
+  // another number of them.
+  WhitenedEdge(const EdgeObservation& observation, const EdgeNoise& noise,
+               const Eigen::VectorXd& robust_weights);
 
   const EdgeObservation& observation() const { return *observation_; }
   Eigen::Index rows() const { return scale_.size(); }
@@ -46,9 +47,10 @@ class WhitenedEdge {
 // Where the samples lie along their edge, from -1 (first) to 1 (last).
 Eigen::VectorXd PlacesAlong(const EdgeObservation& edge);
 
-// Distances (px, outward) of an edge's samples from the projected, distorted outline of the cylinder of radius_m
-// about the axis from a_in_camera to b_in_camera; nothing where there is no such outline.
-std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera, const Eigen::Vector3d& a_in_camera,
+// Distances (px, outward) of an edge's samples from the projected, distorted outline of the cylinder of
+// radius_m about the axis from a_in_camera to b_in_camera; nothing where there is no such outline.
+std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,
+                                             const Eigen::Vector3d& a_in_camera,
                                              const Eigen::Vector3d& b_in_camera, double radius_m,
                                              const EdgeObservation& edge);
 
@@ -56,13 +58,13 @@ std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera, con
 struct EdgeResiduals {
   Eigen::VectorXd residual;
   Eigen::Matrix<double, Eigen::Dynamic, kCameraParameterCount> d_camera;
-  Eigen::Matrix<double, Eigen::Dynamic, 7> d_axis;   // A (3), b = B in camera (3), R
+  Eigen::Matrix<double, Eigen::Dynamic, 7> d_axis;  // A (3), b = B in camera (3), R
   Eigen::Matrix<double, Eigen::Dynamic, 4> d_shading;
 };
 
-// Distances of the samples of `edges` (all of one leg) from the projected, distorted outline of the cylinder of
-// radius_m about the axis from a_in_camera to b_in_camera, moved outward as `shading` says. Nothing
-// where the camera centre lies in the cylinder or an outline cannot be reached.
+// Distances of the samples of `edges` (all of one leg) from the projected, distorted outline of the cylinder
+// of radius_m about the axis from a_in_camera to b_in_camera, moved outward as `shading` says. Nothing where
+// the camera centre lies in the cylinder or an outline cannot be reached.
 std::optional<EdgeResiduals> EvaluateEdges(const CameraParameters& camera, const Eigen::Vector3d& a_in_camera,
                                            const Eigen::Vector3d& b_in_camera, double radius_m,
                                            const Eigen::Vector4d& shading_px,

@@ -13,12 +13,14 @@ using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 std::vector<std::string> MakeParameterNames() {
   std::vector<std::string> names;
-  for (const char* name : {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"})
+  for (const char* name :
+       {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"})
     names.push_back(fmt::format("camera.{}", name));
   for (int leg = 1; leg <= kLegCount; ++leg)
-    for (const char* name : {"base_joint_in_camera_m.x", "base_joint_in_camera_m.y", "base_joint_in_camera_m.z",
-                             "platform_joint_m.x", "platform_joint_m.y", "platform_joint_m.z", "radius_m",
-                             "joint_offset_m", "edge_1_shift_px", "edge_1_tilt_px", "edge_2_shift_px", "edge_2_tilt_px"})
+    for (const char* name :
+         {"base_joint_in_camera_m.x", "base_joint_in_camera_m.y", "base_joint_in_camera_m.z",
+          "platform_joint_m.x", "platform_joint_m.y", "platform_joint_m.z", "radius_m", "joint_offset_m",
+          "edge_1_shift_px", "edge_1_tilt_px", "edge_2_shift_px", "edge_2_tilt_px"})
       names.push_back(fmt::format("legs[{}].{}", leg, name));
   return names;
 }
@@ -29,7 +31,8 @@ Eigen::Matrix<double, 18, 6> RigidMotions(const std::array<Eigen::Vector3d, kLeg
   for (const Eigen::Vector3d& point : points) centroid += point / kLegCount;
   Eigen::Matrix<double, 18, 6> motions;
   for (int i = 0; i < kLegCount; ++i)
-    motions.middleRows<3>(3 * i) << Eigen::Matrix3d::Identity(), -Skew(points[static_cast<size_t>(i)] - centroid);
+    motions.middleRows<3>(3 * i) << Eigen::Matrix3d::Identity(),
+        -Skew(points[static_cast<size_t>(i)] - centroid);
   return motions;
 }
 
@@ -44,7 +47,8 @@ void AddDrawnBase(const EstimationProblem& problem, Eigen::MatrixXd& information
   const Matrix18 added = d.transpose() * d;
   for (int i = 0; i < kLegCount; ++i)
     for (int j = 0; j < kLegCount; ++j)
-      information.block<3, 3>(FirstParameterOfLeg(i), FirstParameterOfLeg(j)) += added.block<3, 3>(3 * i, 3 * j);
+      information.block<3, 3>(FirstParameterOfLeg(i), FirstParameterOfLeg(j)) +=
+          added.block<3, 3>(3 * i, 3 * j);
 }
 
 // Adds one unit's information with its pose eliminated.
@@ -62,7 +66,8 @@ void AddUnit(const EstimationProblem& problem, const PoseUnit& unit, Eigen::Matr
     cross.middleRows<kLegParameterCount>(first) += r->d_leg.transpose() * r->d_pose;
     information.topLeftCorner<kCameraParameterCount, kCameraParameterCount>() +=
         r->d_camera.transpose() * r->d_camera;
-    information.block<kLegParameterCount, kLegParameterCount>(first, first) += r->d_leg.transpose() * r->d_leg;
+    information.block<kLegParameterCount, kLegParameterCount>(first, first) +=
+        r->d_leg.transpose() * r->d_leg;
     const Eigen::MatrixXd camera_leg = r->d_camera.transpose() * r->d_leg;
     information.block<kCameraParameterCount, kLegParameterCount>(0, first) += camera_leg;
     information.block<kLegParameterCount, kCameraParameterCount>(first, 0) += camera_leg.transpose();
@@ -94,7 +99,8 @@ bool EstimationProblem::HasPlatformGauge() const {
   bool platform_free = true;
   for (int leg = 0; leg < kLegCount; ++leg)
     for (int i = 0; i < 3; ++i)
-      platform_free &= free[static_cast<size_t>(FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint + i)];
+      platform_free &=
+          free[static_cast<size_t>(FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint + i)];
   return platform_free && !units.empty() && units.front().rigid;
 }
 
@@ -113,7 +119,8 @@ const std::string& ParameterName(int index) {
   return names.at(static_cast<size_t>(index));
 }
 
-Eigen::Matrix<double, 6, 18> PlatformGauge(const std::array<Eigen::Vector3d, kLegCount>& drawn_platform_joints) {
+Eigen::Matrix<double, 6, 18> PlatformGauge(
+    const std::array<Eigen::Vector3d, kLegCount>& drawn_platform_joints) {
   const Eigen::Matrix<double, 18, 6> motions = RigidMotions(drawn_platform_joints);
   const Eigen::MatrixXd orthonormal =
       motions.householderQr().householderQ() * Eigen::MatrixXd::Identity(18, 6);
@@ -127,7 +134,8 @@ Matrix18 WithoutRigidMotion(const std::array<Eigen::Vector3d, kLegCount>& points
 
 DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const SharedParameters& shared) {
   const auto joints = BaseJoints(shared);
-  const std::vector<Eigen::Vector3d> drawn(problem.drawn_base_joints.begin(), problem.drawn_base_joints.end());
+  const std::vector<Eigen::Vector3d> drawn(problem.drawn_base_joints.begin(),
+                                           problem.drawn_base_joints.end());
   const Rigid3 camera_from_base = FitRigid(drawn, {joints.begin(), joints.end()});
   DrawnBaseResidual result;
   std::array<Eigen::Vector3d, kLegCount> drawn_in_camera;

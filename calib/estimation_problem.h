@@ -12,8 +12,9 @@
 
 namespace legible {
 
-// The unknowns that belong to one image alone, eliminated before the shared ones are solved for: the platform's
-// pose with all legs that hang on it, or, where no rigid platform is assumed, the direction of a single leg.
+// The unknowns that belong to one image alone, eliminated before the shared ones are solved for: the
+// platform's pose with all legs that hang on it, or, where no rigid platform is assumed, the direction of a
+// single leg.
 struct PoseUnit {
   int image = 0;
   bool rigid = true;
@@ -41,7 +42,8 @@ struct EstimationProblem {
   std::vector<PoseUnit> units;
   std::bitset<kSharedParameterCount> free;
   std::vector<ParameterPrior> priors;
-  // Drawing of the base joints, known to sigma (each coordinate) up to where the base as a whole is; 0: unknown.
+  // Drawing of the base joints, known to sigma (each coordinate) up to where the base as a whole is; 0:
+  // unknown.
   std::array<Eigen::Vector3d, kLegCount> drawn_base_joints;
   double base_joint_sigma_m = 0;
   // The platform frame is the rigid fit of B to these, where B is free and the platform rigid.
@@ -55,11 +57,13 @@ double Parameter(const SharedParameters& shared, int index);
 // "camera.fx_px", …, "legs[1].base_joint_m.x" (in camera), …, as model.yaml and the messages name them.
 const std::string& ParameterName(int index);
 
-// Six rows that vanish in first order where the platform frame is the rigid fit of B to the drawn joints, per m:
-// sum (B - B0) / sqrt(6) and sum (B0 - centroid) x (B - B0), normalised. Columns: B of leg 0, …, 5.
-Eigen::Matrix<double, 6, 18> PlatformGauge(const std::array<Eigen::Vector3d, kLegCount>& drawn_platform_joints);
+// Six rows that vanish in first order where the platform frame is the rigid fit of B to the drawn joints, per
+// m: sum (B - B0) / sqrt(6) and sum (B0 - centroid) x (B - B0), normalised. Columns: B of leg 0, …, 5.
+Eigen::Matrix<double, 6, 18> PlatformGauge(
+    const std::array<Eigen::Vector3d, kLegCount>& drawn_platform_joints);
 
-// The projection that takes out of displacements of the points (x, y, z of each) what a rigid motion explains.
+// The projection that takes out of displacements of the points (x, y, z of each) what a rigid motion
+// explains.
 Eigen::Matrix<double, 18, 18> WithoutRigidMotion(const std::array<Eigen::Vector3d, kLegCount>& points);
 
 // Residual of the drawn base after the best rigid fit to A (in camera), m, and its derivative by A.
@@ -69,8 +73,8 @@ struct DrawnBaseResidual {
 };
 DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const SharedParameters& shared);
 
-// Minimises the sum of squares from where the problem stands (Levenberg-Marquardt, the image poses eliminated by
-// Schur's complement) and leaves the result in it.
+// Minimises the sum of squares from where the problem stands (Levenberg-Marquardt, the image poses eliminated
+// by Schur's complement) and leaves the result in it.
 struct SolveOptions {
   int max_iterations = 50;
   double relative_tolerance = 1e-12;  // of the cost
@@ -84,8 +88,8 @@ struct SolveSummary {
 };
 SolveSummary Solve(EstimationProblem& problem, const SolveOptions& options);
 
-// Information of the shared parameters (kSharedParameterCount square) after elimination of every unit's pose: data
-// and priors, without the gauge; rows of parameters that are not free are zero.
+// Information of the shared parameters (kSharedParameterCount square) after elimination of every unit's pose:
+// data and priors, without the gauge; rows of parameters that are not free are zero.
 Eigen::MatrixXd SharedInformation(const EstimationProblem& problem);
 
 }  // namespace legible

@@ -27,8 +27,8 @@ CalibrationStart StartAt(const LegCalibration& solution) {
 // The solution's pose of one image with everything else held.
 std::optional<Rigid3> FitPose(const LegCalibrationInput& input, const LegCalibration& trained, size_t image,
                               const Rigid3& first, LegCalibrationOptions options) {
-  LegCalibrationInput one{trained.robot, trained.camera, trained.camera_from_base, {input.images[image]}, {},
-                          StartAt(trained)};
+  LegCalibrationInput one{
+      trained.robot, trained.camera, trained.camera_from_base, {input.images[image]}, {}, StartAt(trained)};
   one.start->camera_from_platform = {first};
   options.hold = {true, true, true, true, true, true, true};
   options.progress = nullptr;
@@ -37,8 +37,8 @@ std::optional<Rigid3> FitPose(const LegCalibrationInput& input, const LegCalibra
   return fitted.camera_from_platform.front();
 }
 
-std::optional<Rigid3> PredictPose(const LegCalibrationInput& input, const LegCalibration& trained, size_t image,
-                                  const Rigid3& first, const LegCalibrationOptions& options) {
+std::optional<Rigid3> PredictPose(const LegCalibrationInput& input, const LegCalibration& trained,
+                                  size_t image, const Rigid3& first, const LegCalibrationOptions& options) {
   const auto& readings = input.images[image].joint_readings_m;
   if (!options.use_joint_readings || !readings) return FitPose(input, trained, image, first, options);
   const Rigid3 guess = Inverse(trained.camera_from_base) * first;
@@ -56,7 +56,8 @@ Squares PredictionError(const LegCalibration& trained, const ImageObservation& i
         EdgeDistances(ParametersOf(trained.camera), trained.camera_from_base * leg.base_joint_m,
                       camera_from_platform * leg.platform_joint_m, leg.radius_m, edge);
     if (!distances) continue;
-    const Eigen::Vector2d shading = trained.shading_px[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
+    const Eigen::Vector2d shading =
+        trained.shading_px[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
     squares.Add(distances->array() - shading[0] - shading[1] * PlacesAlong(edge).array());
   }
   return squares;
@@ -64,8 +65,8 @@ Squares PredictionError(const LegCalibration& trained, const ImageObservation& i
 
 LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& solution,
                      LegCalibrationOptions options, int folds, int fold) {
-  LegCalibrationInput training{input.drawing, input.camera, input.camera_from_base, {}, input.known,
-                               StartAt(solution)};
+  LegCalibrationInput training{input.drawing, input.camera,     input.camera_from_base, {},
+                               input.known,   StartAt(solution)};
   for (size_t i = 0; i < input.images.size(); ++i) {
     if (static_cast<int>(i) % folds == fold) continue;
     training.images.push_back(input.images[i]);
@@ -125,7 +126,8 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
             -camera.fy_px * x.y() / (x.z() * x.z());
         Eigen::Matrix<double, 3, 6> d_pose;
         d_pose << Eigen::Matrix3d::Identity(), -Skew(in_carrier - carrier_from_group.translation);
-        const Eigen::Matrix<double, 2, 6> jacobian = d_x * camera_from_carrier[i].rotation.toRotationMatrix() * d_pose;
+        const Eigen::Matrix<double, 2, 6> jacobian =
+            d_x * camera_from_carrier[i].rotation.toRotationMatrix() * d_pose;
         information += jacobian.transpose() * jacobian;
         moment -= jacobian.transpose() * error;
       }

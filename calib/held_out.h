@@ -14,9 +14,9 @@ struct HeldOut {
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
 };
 
-// Leaves every folds-th image out, calibrates on the rest from `solution`, predicts the edges of those left out and
-// compares; each image is left out once. The platform's pose in them comes from the joint readings alone; where the
-// estimation uses none it is fitted to the image's edges, all else held.
+// Leaves every folds-th image out, calibrates on the rest from `solution`, predicts the edges of those left
+// out and compares; each image is left out once. The platform's pose in them comes from the joint readings
+// alone; where the estimation uses none it is fitted to the image's edges, all else held.
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
                       const LegCalibrationOptions& options, int folds);
 
@@ -26,9 +26,9 @@ struct GroupCheck {
   double rms_m = 0;  // across the line of sight, at each corner's depth
 };
 
-// How far a group's corners are from where the model puts them. The group's place on its carrier is known roughly
-// at best: the one that suits all images together is found first (camera_from_carrier: of each image, as the model
-// predicts it). Nothing unless the group was seen in two images.
+// How far a group's corners are from where the model puts them. The group's place on its carrier is known
+// roughly at best: the one that suits all images together is found first (camera_from_carrier: of each image,
+// as the model predicts it). Nothing unless the group was seen in two images.
 std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera,
                                      const std::vector<GroupSighting>& sightings,
                                      const std::vector<Rigid3>& camera_from_carrier);

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
-
 
 namespace legible {
 namespace {
 
-constexpr int kMaxRounds = 12;             // of solving and re-weighting; the last keeps its weights
-constexpr int kRoundsByMedian = 2;         // the scale comes from the median until the worst outliers are gone
-constexpr double kSteadyScale = 1e-3;      // relative change of the noise at which the rounds end
-constexpr double kSteadyWeight = 1e-4;     // mean absolute change of the weights at which they end
-constexpr double kAbsurdRms_px = 20;       // a fit this bad is a wrong model, not noise
+constexpr int kMaxRounds = 12;          // of solving and re-weighting; the last keeps its weights
+constexpr int kRoundsByMedian = 2;      // the scale comes from the median until the worst outliers are gone
+constexpr double kSteadyScale = 1e-3;   // relative change of the noise at which the rounds end
+constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
+constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
 
 std::array<Eigen::Vector3d, kLegCount> DrawnJoints(const GoughStewart& robot, Eigen::Vector3d Leg::*joint) {
   std::array<Eigen::Vector3d, kLegCount> joints;
@@ -36,13 +36,14 @@ CalibrationStart StartOf(const LegCalibrationInput& input) {
   return start;
 }
 
-SharedParameters ParametersOf(const Camera& camera, const GoughStewart& robot, const Rigid3& camera_from_base) {
+SharedParameters ParametersOf(const Camera& camera, const GoughStewart& robot,
+                              const Rigid3& camera_from_base) {
   SharedParameters shared;
   shared.camera = ParametersOf(camera);
   for (size_t i = 0; i < kLegCount; ++i) {
     const Leg& leg = robot.legs[i];
-    shared.legs[i] << camera_from_base * leg.base_joint_m, leg.platform_joint_m, leg.radius_m, leg.joint_offset_m,
-        Eigen::Vector4d::Zero();
+    shared.legs[i] << camera_from_base * leg.base_joint_m, leg.platform_joint_m, leg.radius_m,
+        leg.joint_offset_m, Eigen::Vector4d::Zero();
   }
   return shared;
 }
@@ -67,7 +68,8 @@ std::bitset<kSharedParameterCount> FreeParameters(const LegCalibrationInput& inp
 }
 
 // How far shading may move each leg's edge in all images alike.
-double LastingShading(const LegCalibrationInput& input, const LegCalibrationOptions& options, int leg, int edge) {
+double LastingShading(const LegCalibrationInput& input, const LegCalibrationOptions& options, int leg,
+                      int edge) {
   double squares = 0, count = 0;
   for (const ImageObservation& image : input.images)
     for (const EdgeObservation& observation : image.edges) {
@@ -79,7 +81,8 @@ double LastingShading(const LegCalibrationInput& input, const LegCalibrationOpti
 }
 
 // Adds what is known beforehand to the problem, about the drawing's and the guessed camera's values.
-void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& options, EstimationProblem& problem) {
+void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& options,
+               EstimationProblem& problem) {
   const SharedParameters nominal = ParametersOf(input.camera, input.drawing, input.camera_from_base);
   const auto add = [&](int parameter, const std::optional<double>& sigma) {
     if (sigma && problem.free[static_cast<size_t>(parameter)])
@@ -139,6 +142,8 @@ class Calibrator {
     return false;
   }
 
+  bool CanEvaluate() { return EvaluateResiduals(); }
+
   LegCalibration Result() const;
 
  private:
@@ -162,7 +167,7 @@ class Calibrator {
   const LegCalibrationOptions& options_;
   CalibrationStart start_;
   EstimationProblem problem_;
-  std::vector<EdgeResidualSet> edges_;                 // parallel to sources_
+  std::vector<EdgeResidualSet> edges_;  // parallel to sources_
   std::vector<const EdgeObservation*> sources_;
   std::vector<std::pair<size_t, size_t>> placements_;  // unit, leg observation in it
   NoiseByEdge noise_ = UniformNoise({});
@@ -191,8 +196,8 @@ void Calibrator::AddImage(size_t image) {
     for (const LegObservation& of_leg : whole.legs) {
       const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(of_leg.leg)];
       const Eigen::Vector3d tip = camera_from_platform * leg.segment<3>(leg_parameter::kPlatformJoint);
-      problem_.units.push_back({static_cast<int>(image), false, {},
-                                tip - leg.segment<3>(leg_parameter::kBaseJoint), {of_leg}});
+      problem_.units.push_back(
+          {static_cast<int>(image), false, {}, tip - leg.segment<3>(leg_parameter::kBaseJoint), {of_leg}});
     }
   }
   for (size_t edge = 0; edge < observation.edges.size(); ++edge) AddEdge(image, edge);
@@ -203,10 +208,17 @@ void Calibrator::AddEdge(size_t image, size_t edge) {
   const size_t count = observation.samples.size();
   if (count == 0) return;
   const Eigen::Index rows = static_cast<Eigen::Index>(count);
-  EdgeResidualSet set{static_cast<int>(image), observation.leg, observation.edge, PlacesAlong(observation), {}, {},
-                      Eigen::VectorXd::Ones(rows), observation.common_sigma_px};
+  EdgeResidualSet set{static_cast<int>(image),
+                      observation.leg,
+                      observation.edge,
+                      PlacesAlong(observation),
+                      {},
+                      {},
+                      Eigen::VectorXd::Ones(rows),
+                      observation.common_sigma_px};
   set.sigma_px.resize(rows);
-  for (size_t i = 0; i < count; ++i) set.sigma_px[static_cast<Eigen::Index>(i)] = observation.samples[i].sigma_px;
+  for (size_t i = 0; i < count; ++i)
+    set.sigma_px[static_cast<Eigen::Index>(i)] = observation.samples[i].sigma_px;
   edges_.push_back(std::move(set));
   sources_.push_back(&observation);
   const size_t leg = static_cast<size_t>(observation.leg);
@@ -220,8 +232,8 @@ SolveSummary Calibrator::SolveRound() {
   for (PoseUnit& unit : problem_.units)
     for (LegObservation& leg : unit.legs) leg.edges.clear();
   for (size_t i = 0; i < edges_.size(); ++i)
-    problem_.units[placements_[i].first].legs[placements_[i].second].edges.emplace_back(*sources_[i], NoiseOf(edges_[i]),
-                                                                                         edges_[i].weight);
+    problem_.units[placements_[i].first].legs[placements_[i].second].edges.emplace_back(
+        *sources_[i], NoiseOf(edges_[i]), edges_[i].weight);
   SolveOptions solve;
   solve.max_iterations = options_.max_iterations;
   solve.threads = options_.threads;
@@ -238,9 +250,8 @@ bool Calibrator::EvaluateResiduals() {
     EdgeResidualSet& edge = edges_[i];
     const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(edge.leg)];
     const LegTip tip = TipOf(problem_.units[placements_[i].first], leg, at_rest);
-    const auto distances =
-        EdgeDistances(problem_.shared.camera, leg.segment<3>(leg_parameter::kBaseJoint), tip.b_in_camera,
-                      leg[leg_parameter::kRadius], *sources_[i]);
+    const auto distances = EdgeDistances(problem_.shared.camera, leg.segment<3>(leg_parameter::kBaseJoint),
+                                         tip.b_in_camera, leg[leg_parameter::kRadius], *sources_[i]);
     if (!distances) return false;
     const Eigen::Vector2d shading = leg.segment<2>(leg_parameter::kShading + 2 * edge.edge);
     edge.residual_px = distances->array() - shading[0] - shading[1] * edge.place.array();
@@ -262,7 +273,8 @@ bool Calibrator::Reweight(int round) {
   }
   UpdateWeights(edges_, noise_);
   double change = 0;
-  for (size_t i = 0; i < edges_.size(); ++i) change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
+  for (size_t i = 0; i < edges_.size(); ++i)
+    change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
   const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
   const EdgeNoise now = MeanNoise(noise_);
   return round > kRoundsByMedian && steady(before.sample, now.sample) && steady(before.shift, now.shift) &&
@@ -282,8 +294,9 @@ double Calibrator::Rms() const {
 double Calibrator::EdgeSigma() const {
   double variance = 0;
   for (const EdgeResidualSet& edge : edges_)
-    variance += (NoiseOf(edge).sample * edge.sigma_px).squaredNorm() +
-                static_cast<double>(edge.sigma_px.size()) * std::pow(NoiseOf(edge).shift * edge.common_sigma_px, 2);
+    variance +=
+        (NoiseOf(edge).sample * edge.sigma_px).squaredNorm() +
+        static_cast<double>(edge.sigma_px.size()) * std::pow(NoiseOf(edge).shift * edge.common_sigma_px, 2);
   return samples_ > 0 ? std::sqrt(variance / samples_) : 0;
 }
 
@@ -307,8 +320,9 @@ double Calibrator::ReadingSquares() const {
       const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
       const double length_m =
           (TipOf(unit, leg, at_rest).b_in_camera - leg.segment<3>(leg_parameter::kBaseJoint)).norm();
-      squares += std::pow(
-          (length_m - leg[leg_parameter::kJointOffset] - *observation.reading_m) / observation.reading_sigma_m, 2);
+      squares += std::pow((length_m - leg[leg_parameter::kJointOffset] - *observation.reading_m) /
+                              observation.reading_sigma_m,
+                          2);
     }
   return squares;
 }
@@ -352,10 +366,16 @@ void CheckInput(const LegCalibrationInput& input) {
   if (input.start && input.start->camera_from_platform.size() != input.images.size())
     throw std::invalid_argument("CalibrateLegs: the start must hold a pose for each image");
   for (const ImageObservation& image : input.images)
-    for (const EdgeObservation& edge : image.edges)
+    for (const EdgeObservation& edge : image.edges) {
       if (edge.leg < 0 || edge.leg >= kLegCount || edge.edge < 0 || edge.edge > 1)
         throw std::invalid_argument(fmt::format("CalibrateLegs: image {} names leg {}, edge {}", image.name,
                                                 edge.leg + 1, edge.edge + 1));
+      for (const EdgeSample& sample : edge.samples)
+        if (!(sample.sigma_px > 0) || !std::isfinite(sample.sigma_px))
+          throw std::invalid_argument(
+              fmt::format("CalibrateLegs: image {} has a sample of sigma {} px on leg {}", image.name,
+                          sample.sigma_px, edge.leg + 1));
+    }
 }
 
 }  // namespace
@@ -369,10 +389,14 @@ void LegCalibrationOptions::Check() const {
 
 const char* ToString(CalibrationStatus status) {
   switch (status) {
-    case CalibrationStatus::kConverged: return "converged";
-    case CalibrationStatus::kUnobservable: return "unobservable";
-    case CalibrationStatus::kNotConverged: return "not_converged";
-    case CalibrationStatus::kTooFewObservations: return "too_few_observations";
+    case CalibrationStatus::kConverged:
+      return "converged";
+    case CalibrationStatus::kUnobservable:
+      return "unobservable";
+    case CalibrationStatus::kNotConverged:
+      return "not_converged";
+    case CalibrationStatus::kTooFewObservations:
+      return "too_few_observations";
   }
   return "unknown";
 }
@@ -388,6 +412,12 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
     return result;
   }
   const bool settled = calibrator.Run();
+  if (!calibrator.CanEvaluate()) {
+    LegCalibration result;
+    result.message =
+        "the estimate ran into a robot whose legs the camera could not see: the first guess is too far off";
+    return result;
+  }
   LegCalibration result = calibrator.Result();
   if (!result.observability.unobservable.empty()) {
     result.status = CalibrationStatus::kUnobservable;
@@ -395,8 +425,10 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
   } else if (!settled) {
     result.message = "the estimate did not settle";
   } else if (result.rms_px > kAbsurdRms_px) {
-    result.message = fmt::format("the best fit leaves {:.0f} px: the images do not show the robot that the drawing "
-                                 "describes, or the first guess of the camera is too far off", result.rms_px);
+    result.message = fmt::format(
+        "the best fit leaves {:.0f} px: the images do not show the robot that the drawing "
+        "describes, or the first guess of the camera is too far off",
+        result.rms_px);
   } else {
     result.status = CalibrationStatus::kConverged;
   }
@@ -404,7 +436,8 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
 }
 
 Eigen::Matrix<double, 18, kSharedParameterCount> BaseJointsFromShared(const LegCalibration& calibration) {
-  const Eigen::Matrix3d base_from_camera = calibration.camera_from_base.rotation.conjugate().toRotationMatrix();
+  const Eigen::Matrix3d base_from_camera =
+      calibration.camera_from_base.rotation.conjugate().toRotationMatrix();
   Eigen::Matrix<double, 18, kSharedParameterCount> to_base =
       Eigen::Matrix<double, 18, kSharedParameterCount>::Zero();
   std::array<Eigen::Vector3d, kLegCount> joints;

@@ -21,14 +21,14 @@ struct CalibrationStart {
   std::vector<Rigid3> camera_from_platform;  // of each image of the input
 };
 
-// What a calibration is given. Images without edges are allowed and ignored. Without a start the poses begin at
-// the forward kinematics of the drawing from the readings.
+// What a calibration is given. Images without edges are allowed and ignored. Without a start the poses begin
+// at the forward kinematics of the drawing from the readings.
 struct LegCalibrationInput {
   GoughStewart drawing;
   Camera camera;            // first guess; its lens model says which coefficients are estimated
   Rigid3 camera_from_base;  // first guess
   std::vector<ImageObservation> images;
-  PriorKnowledge known;     // about the values in `drawing` and `camera`
+  PriorKnowledge known;  // about the values in `drawing` and `camera`
   std::optional<CalibrationStart> start;
 };
 
@@ -45,7 +45,7 @@ struct HeldParameters {
 
 struct LegCalibrationOptions {
   bool use_joint_readings = true;
-  bool rigid_platform = true;   // false: each leg's direction is free in each image; nothing ties the legs
+  bool rigid_platform = true;  // false: each leg's direction is free in each image; nothing ties the legs
   // Shading that is the same in all images, relative to an edge's common_sigma_px: a shift and a tilt of each
   // leg's edges that no residual shows (radius and joints take them up) but the uncertainty must.
   double lasting_shading = 0.7;
@@ -60,9 +60,9 @@ struct LegCalibrationOptions {
 
 enum class CalibrationStatus {
   kConverged,
-  kUnobservable,         // the data leave something open: see `observability`
-  kNotConverged,         // the iterations ended elsewhere than in a minimum, or the minimum is absurd
-  kTooFewObservations,   // fewer residuals than unknowns
+  kUnobservable,        // the data leave something open: see `observability`
+  kNotConverged,        // the iterations ended elsewhere than in a minimum, or the minimum is absurd
+  kTooFewObservations,  // fewer residuals than unknowns
 };
 const char* ToString(CalibrationStatus status);
 
@@ -73,10 +73,10 @@ struct LegCalibration {
   Rigid3 camera_from_base;  // base: the rigid fit of A to the drawing
   GoughStewart robot;       // A in base, B in platform (the rigid fit of B to the drawing)
   std::array<Eigen::Vector3d, kLegCount> base_joints_in_camera_m;
-  std::vector<Rigid3> camera_from_platform;  // by image; identity where the platform is not rigid
+  std::vector<Rigid3> camera_from_platform;           // by image; identity where the platform is not rigid
   std::array<Eigen::Vector4d, kLegCount> shading_px;  // lasting: shift and tilt of edge 1, of edge 2
-  Observability observability;         // covariance of the shared parameters, A in camera
-  EdgeNoise noise;                     // what the residuals say of the samples' own sigmas, over all edges
+  Observability observability;                        // covariance of the shared parameters, A in camera
+  EdgeNoise noise;  // what the residuals say of the samples' own sigmas, over all edges
   NoiseByEdge noise_by_edge;
   double edge_sigma_px = 0;            // root mean square over the samples of what `noise` says of one sample
   double rms_px = 0;                   // weighted, of all samples' distances
@@ -91,8 +91,8 @@ struct LegCalibration {
 // residuals. Throws std::invalid_argument on malformed input; every numerical outcome is in the status.
 LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options);
 
-// How A in the base frame (x, y, z of legs 1…6) moves with the shared parameters: the base frame is itself the rigid
-// fit of A to the drawing, so that a motion of all A together does not show.
+// How A in the base frame (x, y, z of legs 1…6) moves with the shared parameters: the base frame is itself
+// the rigid fit of A to the drawing, so that a motion of all A together does not show.
 Eigen::Matrix<double, 18, kSharedParameterCount> BaseJointsFromShared(const LegCalibration& calibration);
 
 }  // namespace legible

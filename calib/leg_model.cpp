@@ -41,7 +41,8 @@ void FillReading(const LegParameters& leg, const LegTip& tip, const LegObservati
 
 }  // namespace
 
-LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platform, const Vector6d& displacement) {
+LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platform,
+                     const Vector6d& displacement) {
   const Rigid3 pose = Displaced(camera_from_platform, displacement);
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Vector3d turned = rotation * leg.segment<3>(leg_parameter::kPlatformJoint);
@@ -64,11 +65,11 @@ Eigen::Index RowCount(const LegObservation& observation) {
   return rows;
 }
 
-std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg, const LegTip& tip,
-                                        const LegObservation& observation) {
-  const auto edges = EvaluateEdges(camera, leg.segment<3>(leg_parameter::kBaseJoint), tip.b_in_camera,
-                                   leg[leg_parameter::kRadius],
-                                   leg.segment<4>(leg_parameter::kShading), observation.edges);
+std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg,
+                                        const LegTip& tip, const LegObservation& observation) {
+  const auto edges =
+      EvaluateEdges(camera, leg.segment<3>(leg_parameter::kBaseJoint), tip.b_in_camera,
+                    leg[leg_parameter::kRadius], leg.segment<4>(leg_parameter::kShading), observation.edges);
   if (!edges) return std::nullopt;
   const Eigen::Index edge_rows = edges->residual.size();
   const Eigen::Index rows = RowCount(observation);

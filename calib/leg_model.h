@@ -1,4 +1,5 @@
-// The unknowns of a calibration and the residuals of one leg in one image, with derivatives; free of any solver.
+// The unknowns of a calibration and the residuals of one leg in one image, with derivatives; free of any
+// solver.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +12,9 @@
 
 namespace legible {
 
-// One leg's unknowns, in this order: A in the camera frame (3, m), B in the platform frame (3, m), R (m), joint
-// offset (m), and what shading does to its edges in all images alike (px, outward): shift and tilt (towards B, at
-// the edge's end) of edge 1, shift and tilt of edge 2.
+// One leg's unknowns, in this order: A in the camera frame (3, m), B in the platform frame (3, m), R (m),
+// joint offset (m), and what shading does to its edges in all images alike (px, outward): shift and tilt
+// (towards B, at the edge's end) of edge 1, shift and tilt of edge 2.
 inline constexpr int kLegParameterCount = 12;
 using LegParameters = Eigen::Matrix<double, kLegParameterCount, 1>;
 namespace leg_parameter {
@@ -28,8 +29,8 @@ struct SharedParameters {
 };
 inline constexpr int FirstParameterOfLeg(int leg) { return kCameraParameterCount + leg * kLegParameterCount; }
 
-// Where a leg's axis ends in the camera frame, b, with its derivatives. `d_pose` has a column for each unknown of
-// the image: six where the platform is rigid, two where each leg's direction is free.
+// Where a leg's axis ends in the camera frame, b, with its derivatives. `d_pose` has a column for each
+// unknown of the image: six where the platform is rigid, two where each leg's direction is free.
 struct LegTip {
   Eigen::Vector3d b_in_camera;
   Eigen::Matrix3d d_base_joint;
@@ -37,11 +38,13 @@ struct LegTip {
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6> d_pose;
 };
 
-// The tip of a leg on a rigid platform at Displaced(camera_from_platform, displacement): displacement = (v, omega)
-// in the camera frame.
-LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platform, const Vector6d& displacement);
+// The tip of a leg on a rigid platform at Displaced(camera_from_platform, displacement): displacement = (v,
+// omega) in the camera frame.
+LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platform,
+                     const Vector6d& displacement);
 
-// The tip of a leg whose direction is free: A + axis + (two tangents of axis) * displacement; axis is not zero.
+// The tip of a leg whose direction is free: A + axis + (two tangents of axis) * displacement; axis is not
+// zero.
 LegTip TipAlongDirection(const LegParameters& leg, const Eigen::Vector3d& axis_in_camera,
                          const Eigen::Vector2d& displacement);
 
@@ -64,7 +67,7 @@ struct LegResiduals {
 Eigen::Index RowCount(const LegObservation& observation);
 
 // Nothing where the model cannot produce the edges (camera centre inside a leg, a lens folded over).
-std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg, const LegTip& tip,
-                                        const LegObservation& observation);
+std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg,
+                                        const LegTip& tip, const LegObservation& observation);
 
 }  // namespace legible

@@ -6,14 +6,16 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace legible {
 namespace {
 
-constexpr double kUnknown = 1.0 / 3;     // relative sigma from which a combination counts as not known
-constexpr double kNumericalZero = 1e-13;  // of the largest eigenvalue: below it there is no information at all
-constexpr double kTouched = 1e-3;         // share of an unobservable direction that spoils a parameter
+constexpr double kUnknown = 1.0 / 3;  // relative sigma from which a combination counts as not known
+constexpr double kNumericalZero =
+    1e-13;                         // of the largest eigenvalue: below it there is no information at all
+constexpr double kTouched = 1e-3;  // share of an unobservable direction that spoils a parameter
 constexpr int kWeakDirectionsReported = 3;
 
 // A direction with a name: entries relative to the parameters' natural sizes.
@@ -22,7 +24,8 @@ struct NamedDirection {
   Eigen::VectorXd direction;
 };
 
-// The size of the thing that each parameter describes, so that a relative sigma of 1 means "not known at all".
+// The size of the thing that each parameter describes, so that a relative sigma of 1 means "not known at
+// all".
 Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {
   const SharedParameters& shared = problem.shared;
   Eigen::VectorXd sizes(kSharedParameterCount);
@@ -35,7 +38,8 @@ Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {
   for (int i = 0; i < kLegCount; ++i) {
     const LegParameters& leg = shared.legs[static_cast<size_t>(i)];
     auto of_leg = sizes.segment<kLegParameterCount>(FirstParameterOfLeg(i));
-    of_leg.segment<3>(leg_parameter::kBaseJoint).setConstant(leg.segment<3>(leg_parameter::kBaseJoint).norm());
+    of_leg.segment<3>(leg_parameter::kBaseJoint)
+        .setConstant(leg.segment<3>(leg_parameter::kBaseJoint).norm());
     of_leg.segment<3>(leg_parameter::kPlatformJoint)
         .setConstant(leg.segment<3>(leg_parameter::kPlatformJoint).norm());
     of_leg[leg_parameter::kRadius] = leg[leg_parameter::kRadius];
@@ -63,11 +67,14 @@ std::vector<NamedDirection> KnownFreedoms(const EstimationProblem& problem, cons
     ScaleLeg(problem, leg, whole);
     whole.segment<3>(FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint) =
         problem.shared.legs[static_cast<size_t>(leg)].segment<3>(leg_parameter::kPlatformJoint);
-    named.push_back({fmt::format("the scale of leg {} is free (its base joint's distance from the camera and its "
-                                 "radius grow together unseen): {}", leg + 1, mend),
-                     one.cwiseQuotient(sizes)});
+    named.push_back(
+        {fmt::format("the scale of leg {} is free (its base joint's distance from the camera and its "
+                     "radius grow together unseen): {}",
+                     leg + 1, mend),
+         one.cwiseQuotient(sizes)});
   }
-  named.push_back({fmt::format("the scale of the whole robot is free: {}", mend), whole.cwiseQuotient(sizes)});
+  named.push_back(
+      {fmt::format("the scale of the whole robot is free: {}", mend), whole.cwiseQuotient(sizes)});
   return named;
 }
 
@@ -76,7 +83,8 @@ Eigen::MatrixXd FreeDirections(const EstimationProblem& problem, const Eigen::Ve
   std::vector<int> free;
   for (int i = 0; i < kSharedParameterCount; ++i)
     if (problem.free[static_cast<size_t>(i)]) free.push_back(i);
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(kSharedParameterCount, static_cast<Eigen::Index>(free.size()));
+  Eigen::MatrixXd basis =
+      Eigen::MatrixXd::Zero(kSharedParameterCount, static_cast<Eigen::Index>(free.size()));
   for (size_t i = 0; i < free.size(); ++i) basis(free[i], static_cast<Eigen::Index>(i)) = 1;
   if (!problem.HasPlatformGauge()) return basis;
 
@@ -100,7 +108,8 @@ std::string LargestEntries(const Eigen::VectorXd& direction) {
   const double largest = std::abs(direction[order[0]]);
   std::string text;
   for (size_t i = 0; i < 4 && std::abs(direction[order[i]]) > 0.3 * largest; ++i)
-    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", ParameterName(order[i]), direction[order[i]] > 0 ? '+' : '-');
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", ParameterName(order[i]),
+                        direction[order[i]] > 0 ? '+' : '-');
   return text;
 }
 
@@ -110,25 +119,36 @@ WeakDirection Describe(const std::string& text, double relative_sigma, const Eig
   return {text, relative_sigma, normalised.cwiseProduct(sizes)};
 }
 
+// Relative sigma along a direction, given the information in natural units.
+double SigmaAlong(const Eigen::VectorXd& direction, const Eigen::MatrixXd& relative, double zero) {
+  const Eigen::VectorXd unit = direction.normalized();
+  const double information = unit.dot(relative * unit);
+  return information > zero ? 1 / std::sqrt(information) : std::numeric_limits<double>::infinity();
+}
+
 // Names the null space: first the freedoms that have a name, then what is left of it by its largest entries.
 std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, const Eigen::VectorXd& sizes,
-                                            Eigen::MatrixXd space, const Eigen::VectorXd& sigmas) {
+                                            const Eigen::MatrixXd& relative, double zero,
+                                            Eigen::MatrixXd space) {
   std::vector<WeakDirection> result;
-  const double least = sigmas.size() > 0 ? sigmas.minCoeff() : 0;
+  const auto add = [&](const std::string& text, const Eigen::VectorXd& direction) {
+    result.push_back(Describe(text, SigmaAlong(direction, relative, zero), direction, sizes));
+  };
   for (const NamedDirection& named : KnownFreedoms(problem, sizes)) {
     if (space.cols() == 0) break;
     const Eigen::VectorXd inside = space.transpose() * named.direction;
     if (inside.norm() < 0.99 * named.direction.norm()) continue;
-    result.push_back(Describe(named.description, least, named.direction, sizes));
+    add(named.description, named.direction);
     // What is left of the space: its directions orthogonal to the one just named.
-    const Eigen::MatrixXd q =
-        Eigen::MatrixXd(inside).householderQr().householderQ() * Eigen::MatrixXd::Identity(inside.size(), inside.size());
+    const Eigen::MatrixXd q = Eigen::MatrixXd(inside).householderQr().householderQ() *
+                              Eigen::MatrixXd::Identity(inside.size(), inside.size());
     space = space * q.rightCols(inside.size() - 1);
   }
   for (Eigen::Index i = 0; i < space.cols(); ++i)
-    result.push_back(Describe(fmt::format("a combination of {} is not determined: hold one of them fixed or say how "
-                                          "well it is known", LargestEntries(space.col(i))),
-                              least, space.col(i), sizes));
+    add(fmt::format(
+            "a combination of {} is not determined: hold one of them fixed or say how well it is known",
+            LargestEntries(space.col(i))),
+        space.col(i));
   return result;
 }
 
@@ -150,20 +170,15 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
   };
   Eigen::Index unknown = 0;
   while (unknown < count && sigma(unknown) > kUnknown) ++unknown;
-  Eigen::VectorXd sigmas(unknown);
-  for (Eigen::Index i = 0; i < unknown; ++i) sigmas[i] = sigma(i);
-
-  result.unobservable = NameUnobservable(problem, sizes, vectors.leftCols(unknown), sigmas);
+  result.unobservable = NameUnobservable(problem, sizes, relative, zero, vectors.leftCols(unknown));
   for (Eigen::Index i = unknown; i < std::min(unknown + kWeakDirectionsReported, count); ++i)
     result.weak.push_back(Describe(LargestEntries(vectors.col(i)), sigma(i), vectors.col(i), sizes));
 
   const Eigen::MatrixXd known = sizes.asDiagonal() * vectors.rightCols(count - unknown);
-  result.covariance =
-      known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();
+  result.covariance = known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();
   result.known.resize(kSharedParameterCount);
   for (int i = 0; i < kSharedParameterCount; ++i)
-    result.known[static_cast<size_t>(i)] =
-        vectors.row(i).head(unknown).norm() < kTouched;
+    result.known[static_cast<size_t>(i)] = vectors.row(i).head(unknown).norm() < kTouched;
   return result;
 }
 

@@ -11,22 +11,23 @@ namespace legible {
 
 // A combination of parameters that the data leave open (or nearly so).
 struct WeakDirection {
-  std::string description;    // a sentence for the user, with the mend
-  double relative_sigma = 0;  // standard deviation along it, relative to the size of the things it moves; may be inf
+  std::string description;  // a sentence for the user, with the mend
+  double relative_sigma =
+      0;  // standard deviation along it, relative to the size of the things it moves; may be inf
   Eigen::VectorXd direction;  // of the shared parameters, largest entry relative to its natural size is 1
 };
 
 struct Observability {
   std::vector<WeakDirection> unobservable;  // known no better than to a third of their own size
   std::vector<WeakDirection> weak;          // the three least certain of the rest
-  Eigen::MatrixXd covariance;               // kSharedParameterCount square, SI units and px, in the platform gauge
-  std::vector<bool> known;                  // per parameter: held, or untouched by an unobservable direction
+  Eigen::MatrixXd covariance;  // kSharedParameterCount square, SI units and px, in the platform gauge
+  std::vector<bool> known;     // per parameter: held, or untouched by an unobservable direction
 };
 
-// Eigenvalues of the problem's information in natural units (each parameter relative to the size of its thing: the
-// focal length, a joint's distance, …) after the platform gauge is taken out. Where nothing is unobservable the
-// covariance is the inverse of the information; otherwise it covers the observable rest, and parameters that are
-// not `known` must not be reported.
+// Eigenvalues of the problem's information in natural units (each parameter relative to the size of its
+// thing: the focal length, a joint's distance, …) after the platform gauge is taken out. Where nothing is
+// unobservable the covariance is the inverse of the information; otherwise it covers the observable rest, and
+// parameters that are not `known` must not be reported.
 Observability AnalyseObservability(const EstimationProblem& problem);
 
 }  // namespace legible

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kFullUpTo = 3;
 constexpr double kZeroFrom = 6;
+constexpr double kLeastScale =
+    1e-3;  // residuals this far below the samples' own sigmas are rounding, not noise
 
 // E[w z^2] / E[w] of standard normal z: what the weighted mean square is short of 1.
 double WeightedVarianceOfStandardNormal() {
@@ -61,7 +63,8 @@ struct VarianceFactor {
     noise += weight * other.noise;
     count += weight * other.count;
   }
-  // Square root of the factor; `share`: of the values' squares that the fitted parameters left in the residuals.
+  // Square root of the factor; `share`: of the values' squares that the fitted parameters left in the
+  // residuals.
   double Sigma(double share) const {
     constexpr double kLeastFactor = 0.04;  // a fifth of what the edges say of themselves
     return count > 0 ? std::sqrt(std::max(excess / share - noise, kLeastFactor * count) / count) : 1;
@@ -86,7 +89,9 @@ constexpr int kFewestSamplesForALine = 4;
 bool HasLine(const EdgeResidualSet& edge) { return edge.weight.sum() >= kFewestSamplesForALine; }
 
 double WithinVariance(const NoiseSums& sums) {
-  return sums.freedom > 0 ? sums.squares / sums.freedom / WeightedVarianceOfStandardNormal() : 1;
+  if (sums.freedom <= 0) return 1;
+  return std::max(sums.squares / sums.freedom / WeightedVarianceOfStandardNormal(),
+                  kLeastScale * kLeastScale);
 }
 
 using SumsByEdge = std::array<std::array<NoiseSums, 2>, kLegCount>;
@@ -143,7 +148,9 @@ double SampleScale(const std::vector<EdgeResidualSet>& edges, double parameters)
     squares += (edge.weight.array() * (edge.residual_px.array() / edge.sigma_px.array()).square()).sum();
     weight += edge.weight.sum();
   }
-  return std::sqrt(squares / std::max(weight - parameters, 1.0) / WeightedVarianceOfStandardNormal());
+  return std::max(
+      std::sqrt(squares / std::max(weight - parameters, 1.0) / WeightedVarianceOfStandardNormal()),
+      kLeastScale);
 }
 
 }  // namespace
@@ -163,7 +170,7 @@ double MedianScale(const std::vector<EdgeResidualSet>& edges) {
   if (sizes.empty()) return 1;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
+  return std::max(1.4826 * *middle, kLeastScale);
 }
 
 NoiseByEdge EstimateNoise(const std::vector<EdgeResidualSet>& edges, double parameters) {

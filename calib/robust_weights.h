@@ -8,8 +8,8 @@
 
 namespace legible {
 
-// Weight of a residual of `normalised` standard deviations: 1 up to 3, falling smoothly to 0 at 6 (a Hampel weight
-// with a cosine flank). Costs 0.1 % of efficiency on normal noise.
+// Weight of a residual of `normalised` standard deviations: 1 up to 3, falling smoothly to 0 at 6 (a Hampel
+// weight with a cosine flank). Costs 0.1 % of efficiency on normal noise.
 double RobustWeight(double normalised);
 
 // Residuals of one edge in one image, divided by each sample's own sigma_px.
@@ -27,10 +27,11 @@ struct EdgeResidualSet {
 // 1.4826 x median |residual / sigma_px|: a scale that half the samples being wrong does not move.
 double MedianScale(const std::vector<EdgeResidualSet>& edges);
 
-// Noise that the weighted residuals show; `parameters` unknowns were fitted to them. The scale is corrected for the
-// flanks that RobustWeight cuts off normal noise. Where edges have a common_sigma_px, what is common along them is
-// told apart by a line through each edge's residuals (method of moments), for each edge of each leg, drawn towards
-// the mean of all where there are few images; otherwise shift and tilt stay 1 and all share one sample noise.
+// Noise that the weighted residuals show; `parameters` unknowns were fitted to them. The scale is corrected
+// for the flanks that RobustWeight cuts off normal noise. Where edges have a common_sigma_px, what is common
+// along them is told apart by a line through each edge's residuals (method of moments), for each edge of each
+// leg, drawn towards the mean of all where there are few images; otherwise shift and tilt stay 1 and all
+// share one sample noise.
 NoiseByEdge EstimateNoise(const std::vector<EdgeResidualSet>& edges, double parameters);
 
 // Sets every weight for the given noise, after the part of each edge's residual that shift and tilt explain.

@@ -143,8 +143,8 @@ class SessionCalibrator {
         GroupSighting sighting;
         for (const ImageOutcome& image : result_.images) {
           const GroupSighting one = Match(group, image.tags);
-          sighting.corners_in_group_m.insert(sighting.corners_in_group_m.end(), one.corners_in_group_m.begin(),
-                                             one.corners_in_group_m.end());
+          sighting.corners_in_group_m.insert(sighting.corners_in_group_m.end(),
+                                             one.corners_in_group_m.begin(), one.corners_in_group_m.end());
           sighting.corners_px.insert(sighting.corners_px.end(), one.corners_px.begin(), one.corners_px.end());
         }
         const auto pose = LocateGroup(prediction_.camera, sighting);
@@ -156,13 +156,15 @@ class SessionCalibrator {
     }
     if (!session_.camera_from_base)
       throw std::invalid_argument(
-          "the session does not say where the camera is; give camera_from_base in camera.yaml (a tape measure will "
+          "the session does not say where the camera is; give camera_from_base in camera.yaml (a tape "
+          "measure will "
           "do), or tags on the base");
     prediction_.camera_from_base = *session_.camera_from_base;
     result_.first_pose_from = "camera.yaml";
   }
 
-  // A few images, the drawing trusted, the camera's pose free: brings predictions within reach of the fine search.
+  // A few images, the drawing trusted, the camera's pose free: brings predictions within reach of the fine
+  // search.
   void RefineFirstPose() {
     PredictPoses();
     std::vector<size_t> scouts;
@@ -189,7 +191,6 @@ class SessionCalibrator {
     LegCalibrationOptions rough;
     rough.threads = options_.threads;
     const LegCalibration scouted = CalibrateLegs(input, rough);
-    if (getenv("DBG")) fprintf(stderr,"scout %s %s rms %.3f samples %d fx %.1f k1 %.3f k2 %.3f edges %zu\n",ToString(scouted.status),scouted.message.c_str(),scouted.rms_px,scouted.samples,scouted.camera.fx_px,scouted.camera.distortion[0],scouted.camera.distortion[1],scouted.edges.size());
     if (scouted.status == CalibrationStatus::kConverged) Adopt(scouted);
   }
 
@@ -217,7 +218,8 @@ class SessionCalibrator {
     Measure("finding edges", All(), fine);
   }
 
-  void Measure(const std::string& stage, const std::vector<size_t>& which, const LegEdgeOptions& edge_options) {
+  void Measure(const std::string& stage, const std::vector<size_t>& which,
+               const LegEdgeOptions& edge_options) {
     ForEachImage(stage, which, [&](size_t i) {
       if (Left(i)) return;
       const LegsInCamera legs =
@@ -227,14 +229,19 @@ class SessionCalibrator {
   }
 
   LegCalibrationInput Input(const std::vector<size_t>& which) const {
-    LegCalibrationInput input{session_.robot, drawn_camera_, prediction_.camera_from_base, {}, session_.known,
-                              CalibrationStart{prediction_.camera, prediction_.robot,
-                                               prediction_.camera_from_base, {}}};
+    LegCalibrationInput input{
+        session_.robot,
+        drawn_camera_,
+        prediction_.camera_from_base,
+        {},
+        session_.known,
+        CalibrationStart{prediction_.camera, prediction_.robot, prediction_.camera_from_base, {}}};
     for (size_t i : which) {
       if (Left(i)) continue;
-      input.images.push_back(
-          ToObservation(session_.images[i].name, session_.images[i].joint_readings_m, result_.images[i].edges));
-      input.start->camera_from_platform.push_back(prediction_.camera_from_base * prediction_.base_from_platform[i]);
+      input.images.push_back(ToObservation(session_.images[i].name, session_.images[i].joint_readings_m,
+                                           result_.images[i].edges));
+      input.start->camera_from_platform.push_back(prediction_.camera_from_base *
+                                                  prediction_.base_from_platform[i]);
     }
     return input;
   }
@@ -256,7 +263,8 @@ class SessionCalibrator {
       const HeldOut held_out =
           CrossValidate(Input(used), result_.calibration, options_.estimation, options_.folds);
       result_.held_out_rms_px = held_out.rms_px;
-      for (size_t k = 0; k < used.size(); ++k) result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
+      for (size_t k = 0; k < used.size(); ++k)
+        result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
     }
     if (session_.tags) CheckTags(used);
   }
@@ -308,7 +316,8 @@ class SessionCalibrator {
 void SessionCalibrationOptions::Check() const {
   estimation.Check();
   edges.Check();
-  if (scouts < 1 || threads < 1 || folds < 0) throw std::invalid_argument("scouts, threads and folds must be positive");
+  if (scouts < 1 || threads < 1 || folds < 0)
+    throw std::invalid_argument("scouts, threads and folds must be positive");
 }
 
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options) {

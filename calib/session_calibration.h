@@ -60,7 +60,8 @@ struct SessionCalibration {
 };
 
 // Runs the whole chain. Throws std::invalid_argument for a session that does not say where the camera is (no
-// camera_from_base and no tags on the base that are seen); an image that cannot be read is left out with its reason.
+// camera_from_base and no tags on the base that are seen); an image that cannot be read is left out with its
+// reason.
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options);
 
 }  // namespace legible

@@ -31,8 +31,8 @@ class LegCost final : public ceres::CostFunction {
 
  private:
   static void Copy(const Eigen::MatrixXd& jacobian, double* to) {
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(to, jacobian.rows(),
-                                                                                      jacobian.cols()) = jacobian;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        to, jacobian.rows(), jacobian.cols()) = jacobian;
   }
 
   const PoseUnit& unit_;
@@ -42,7 +42,8 @@ class LegCost final : public ceres::CostFunction {
 // (parameter - value) / sigma for one entry of a block.
 class PriorCost final : public ceres::CostFunction {
  public:
-  PriorCost(int block_size, int entry, double value, double sigma) : entry_(entry), value_(value), sigma_(sigma) {
+  PriorCost(int block_size, int entry, double value, double sigma)
+      : entry_(entry), value_(value), sigma_(sigma) {
     *mutable_parameter_block_sizes() = {block_size};
     set_num_residuals(1);
   }
@@ -59,7 +60,8 @@ class PriorCost final : public ceres::CostFunction {
   double value_, sigma_;
 };
 
-// Costs on three numbers of every leg at once: `rows` residuals, each leg's derivatives in columns 3 i … 3 i + 2.
+// Costs on three numbers of every leg at once: `rows` residuals, each leg's derivatives in columns 3 i … 3 i
+// + 2.
 class AllLegsCost : public ceres::CostFunction {
  public:
   AllLegsCost(int rows, int first_entry) : first_entry_(first_entry) {
@@ -113,7 +115,8 @@ class DrawnBaseCost final : public AllLegsCost {
       : AllLegsCost(18, leg_parameter::kBaseJoint), problem_(problem) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     SharedParameters shared = problem_.shared;
-    for (size_t leg = 0; leg < kLegCount; ++leg) shared.legs[leg] = Eigen::Map<const LegParameters>(parameters[leg]);
+    for (size_t leg = 0; leg < kLegCount; ++leg)
+      shared.legs[leg] = Eigen::Map<const LegParameters>(parameters[leg]);
     const DrawnBaseResidual r = EvaluateDrawnBase(problem_, shared);
     Eigen::Map<Eigen::VectorXd>(residuals, 18) = r.residual_m / problem_.base_joint_sigma_m;
     Scatter(r.d_base_joints / problem_.base_joint_sigma_m, jacobians);
@@ -136,7 +139,8 @@ class ProgressCallback final : public ceres::IterationCallback {
   const std::function<void(int, double)>& report_;
 };
 
-// Marks the entries [first, first + size) of the shared parameters that are not free as constant in their block.
+// Marks the entries [first, first + size) of the shared parameters that are not free as constant in their
+// block.
 void HoldFixedEntries(const EstimationProblem& estimation, int first, int size, double* block,
                       ceres::Problem& problem) {
   std::vector<int> held;
@@ -151,7 +155,9 @@ void HoldFixedEntries(const EstimationProblem& estimation, int first, int size, 
 class CeresProblem {
  public:
   explicit CeresProblem(EstimationProblem& estimation)
-      : estimation_(estimation), displacements_(6 * estimation.units.size(), 0.0), problem_(ProblemOptions()) {
+      : estimation_(estimation),
+        displacements_(6 * estimation.units.size(), 0.0),
+        problem_(ProblemOptions()) {
     for (double* block : SharedBlocks()) problem_.AddParameterBlock(block, BlockSize(block));
     for (size_t i = 0; i < estimation.units.size(); ++i)
       for (const LegObservation& observation : estimation.units[i].legs) AddLeg(i, observation);
@@ -182,7 +188,8 @@ class CeresProblem {
 
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem_, &summary);
-    for (size_t i = 0; i < estimation_.units.size(); ++i) Displace(estimation_.units[i], &displacements_[6 * i]);
+    for (size_t i = 0; i < estimation_.units.size(); ++i)
+      Displace(estimation_.units[i], &displacements_[6 * i]);
     return {summary.termination_type == ceres::CONVERGENCE, static_cast<int>(summary.iterations.size()) - 1,
             summary.final_cost};
   }
@@ -190,7 +197,8 @@ class CeresProblem {
  private:
   static ceres::Problem::Options ProblemOptions() {
     ceres::Problem::Options options;
-    options.disable_all_safety_checks = true;  // the blocks are laid out here; the checks cost more than the solve
+    options.disable_all_safety_checks =
+        true;  // the blocks are laid out here; the checks cost more than the solve
     return options;
   }
   double* Camera() { return estimation_.shared.camera.data(); }
@@ -200,7 +208,9 @@ class CeresProblem {
     for (int leg = 0; leg < kLegCount; ++leg) blocks.push_back(Leg(leg));
     return blocks;
   }
-  int BlockSize(const double* block) { return block == Camera() ? kCameraParameterCount : kLegParameterCount; }
+  int BlockSize(const double* block) {
+    return block == Camera() ? kCameraParameterCount : kLegParameterCount;
+  }
 
   void AddLeg(size_t unit, const LegObservation& observation) {
     if (RowCount(observation) == 0) return;
@@ -212,7 +222,8 @@ class CeresProblem {
     const int of_leg = prior.parameter - kCameraParameterCount;
     double* block = of_camera ? Camera() : Leg(of_leg / kLegParameterCount);
     const int entry = of_camera ? prior.parameter : of_leg % kLegParameterCount;
-    problem_.AddResidualBlock(new PriorCost(BlockSize(block), entry, prior.value, prior.sigma), nullptr, block);
+    problem_.AddResidualBlock(new PriorCost(BlockSize(block), entry, prior.value, prior.sigma), nullptr,
+                              block);
   }
   void AddAllLegs(ceres::CostFunction* cost) {
     std::vector<double*> blocks = SharedBlocks();

@@ -74,8 +74,9 @@ std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const
   result.foot_undistorted = foot->undistorted;
   result.distance_px = direction_px.dot(point_px - Pixel(camera, *foot));
 
-  // Differentiate both equations: the pixel moves by -dr along direction_px only, and the foot stays on the line.
-  // With w = G^-T (normal's xy), G = d pixel / d x:  dr = (x.dn - w.(d pixel / d camera) dcamera) / (w.direction).
+  // Differentiate both equations: the pixel moves by -dr along direction_px only, and the foot stays on the
+  // line. With w = G^-T (normal's xy), G = d pixel / d x:  dr = (x.dn - w.(d pixel / d camera) dcamera) /
+  // (w.direction).
   const Eigen::Vector2d w = foot->d_pixel_d_undistorted.transpose().inverse() * normal.head<2>();
   const double scale = 1 / w.dot(direction_px);
   result.d_distance_d_normal = scale * foot->undistorted.homogeneous().transpose();

@@ -1,4 +1,5 @@
-// How far a measured image point lies from the distorted image of a leg's edge, and how that changes with the model.
+// How far a measured image point lies from the distorted image of a leg's edge, and how that changes with the
+// model.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,12 +23,13 @@ struct EdgeDistance {
   Eigen::Matrix<double, 1, kCameraParameterCount> d_distance_d_camera;
 };
 
-// Signed distance, measured along the unit vector direction_px, from the distorted image of the edge with outline
-// normal `normal` (CylinderOutline) to the image point point_px. The foot is the point x of the line
-// normal.(x, 1) = 0 whose distorted projection lies on the ray point_px - r direction_px; exact for any lens model,
-// by Newton on x. Nothing where that has no solution near the point (the edge parallel to direction_px, or a lens
-// that folds over).
+// Signed distance, measured along the unit vector direction_px, from the distorted image of the edge with
+// outline normal `normal` (CylinderOutline) to the image point point_px. The foot is the point x of the line
+// normal.(x, 1) = 0 whose distorted projection lies on the ray point_px - r direction_px; exact for any lens
+// model, by Newton on x. Nothing where that has no solution near the point (the edge parallel to
+// direction_px, or a lens that folds over).
 std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const Eigen::Vector3d& normal,
-                                           const Eigen::Vector2d& point_px, const Eigen::Vector2d& direction_px);
+                                           const Eigen::Vector2d& point_px,
+                                           const Eigen::Vector2d& direction_px);
 
 }  // namespace legible

@@ -7,7 +7,7 @@
 namespace legible {
 namespace {
 
-constexpr double kFrom = -8, kTo = 16;    // beyond, the step is 0 or the power's own expansion holds to 1e-7
+constexpr double kFrom = -8, kTo = 16;  // beyond, the step is 0 or the power's own expansion holds to 1e-7
 constexpr int kPerUnit = 64;
 constexpr int kEntries = static_cast<int>((kTo - kFrom) * kPerUnit) + 1;
 
@@ -19,7 +19,8 @@ class Table {
   template <typename F>
   explicit Table(F evaluate) {
     entries_.reserve(kEntries);
-    for (int i = 0; i < kEntries; ++i) entries_.push_back(evaluate(kFrom + static_cast<double>(i) / kPerUnit));
+    for (int i = 0; i < kEntries; ++i)
+      entries_.push_back(evaluate(kFrom + static_cast<double>(i) / kPerUnit));
   }
 
   BlurredPower At(double z) const {
@@ -39,8 +40,8 @@ class Table {
   std::vector<BlurredPower> entries_;
 };
 
-// Integral over u > 0 of u^p phi(z - u), with u = v^2 so that the root at 0 does no harm; trapezoidal, which is
-// exact to rounding for a smooth integrand that vanishes at both ends.
+// Integral over u > 0 of u^p phi(z - u), with u = v^2 so that the root at 0 does no harm; trapezoidal, which
+// is exact to rounding for a smooth integrand that vanishes at both ends.
 double BlurredPowerByQuadrature(double p, double z) {
   constexpr int kSteps = 600;
   const double last = std::sqrt(std::max(z, 0.0) + 9);

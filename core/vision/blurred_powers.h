@@ -11,7 +11,8 @@ struct BlurredPower {
   double derivative;
 };
 
-// Half-integer powers have no elementary blurred form (they are parabolic cylinder functions): tabulated once.
+// Half-integer powers have no elementary blurred form (they are parabolic cylinder functions): tabulated
+// once.
 enum class HalfPower { kOneHalf, kThreeHalves, kFiveHalves };
 BlurredPower BlurredHalfPower(HalfPower power, double z);
 

@@ -9,6 +9,9 @@ namespace {
 // Where brightness is read for flattening, clear of the blurred edge itself (px inside).
 constexpr double kBackgroundFrom = -5, kBackgroundTo = -2, kLegFrom = 1.5, kLegTo = 6;
 constexpr double kLeastRelativeContrast = 0.3;  // of a cell, against the median cell's
+constexpr double kLargestRelativeJump =
+    0.12;  // of brightness from one neighbour cell to the other, against the contrast
+constexpr double kLargestJump = 3;  // grey levels: less is noise
 constexpr size_t kFewestPixels = 4;
 
 // x range in a row within which |along| <= half_length and -inside <= outward <= outside.
@@ -42,7 +45,8 @@ void CollectCell(const GrayImage& image, const Eigen::Vector2d& start, const Eig
     const int to = static_cast<int>(std::floor(span.high + cell.centre_px.x()));
     for (int x = from; x <= to; ++x) {
       const Eigen::Vector2d from_centre(x - cell.centre_px.x(), dy);
-      pixels.push_back({static_cast<float>(-cell.normal_px.dot(from_centre)), static_cast<float>(image(x, y))});
+      pixels.push_back(
+          {static_cast<float>(-cell.normal_px.dot(from_centre)), static_cast<float>(image(x, y))});
     }
   }
 }
@@ -66,7 +70,8 @@ struct Levels {
   Level background, leg;
   double Contrast() const { return leg.Mean() - background.Mean(); }
   bool IsMeasured() const {
-    return background.count >= static_cast<double>(kFewestPixels) && leg.count >= static_cast<double>(kFewestPixels);
+    return background.count >= static_cast<double>(kFewestPixels) &&
+           leg.count >= static_cast<double>(kFewestPixels);
   }
 };
 
@@ -86,16 +91,28 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
-void DropCellsWithoutContrast(EdgeBand& band, std::vector<Levels>& levels) {
+// Where the background or the leg changes within a few pixels along the edge (the horizon behind it, a
+// shadow's border across it), it changes across the edge as well, unseen.
+bool JumpsAt(const EdgeBand& band, const std::vector<Levels>& levels, size_t i, double largest) {
+  const size_t before = i > 0 && band.cells[i].follows_previous ? i - 1 : i;
+  const size_t after = i + 1 < levels.size() && band.cells[i + 1].follows_previous ? i + 1 : i;
+  return std::abs(levels[after].background.Mean() - levels[before].background.Mean()) > largest ||
+         std::abs(levels[after].leg.Mean() - levels[before].leg.Mean()) > largest;
+}
+
+// Drops what is not a plain stretch of the leg's edge: contrast missing or reversed, or brightness that
+// jumps.
+void DropUnevenCells(EdgeBand& band, std::vector<Levels>& levels) {
   std::vector<double> contrasts;
   for (const Levels& of_cell : levels) contrasts.push_back(of_cell.Contrast());
   const double typical = MedianOf(contrasts);
+  const double largest_jump = std::max(kLargestRelativeJump * std::abs(typical), kLargestJump);
   std::vector<BandCell> kept;
   std::vector<Levels> kept_levels;
   bool previous_kept = false;
   for (size_t i = 0; i < band.cells.size(); ++i) {
-    const bool keep =
-        levels[i].IsMeasured() && levels[i].Contrast() * typical > kLeastRelativeContrast * typical * typical;
+    const bool has_contrast = levels[i].Contrast() * typical > kLeastRelativeContrast * typical * typical;
+    const bool keep = levels[i].IsMeasured() && has_contrast && !JumpsAt(band, levels, i, largest_jump);
     if (keep) {
       kept.push_back(band.cells[i]);
       kept.back().follows_previous &= previous_kept;
@@ -133,7 +150,8 @@ EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoin
     const PredictedEdgePoint &a = curve[i], &b = curve[i + 1];
     const bool visible = a.obstacle == EdgeObstacle::kNone && b.obstacle == EdgeObstacle::kNone;
     if (visible) {
-      BandCell cell{(a.share + b.share) / 2, (a.point_px + b.point_px) / 2, {}, previous, band.pixels.size(), 0};
+      BandCell cell{
+          (a.share + b.share) / 2, (a.point_px + b.point_px) / 2, {}, previous, band.pixels.size(), 0};
       const Eigen::Vector2d chord = (b.point_px - a.point_px).normalized();
       cell.normal_px = Eigen::Vector2d(-chord.y(), chord.x());
       if (cell.normal_px.dot(a.normal_px) < 0) cell.normal_px = -cell.normal_px;
@@ -151,7 +169,8 @@ void Flatten(EdgeBand& band, double place_px) {
   if (band.cells.empty()) return;
   std::vector<Levels> levels;
   for (const BandCell& cell : band.cells) levels.push_back(LevelsOf(band, cell, place_px));
-  DropCellsWithoutContrast(band, levels);
+  DropUnevenCells(band, levels);
+  if (band.cells.empty()) return;
   Levels all;
   for (const Levels& of_cell : levels) {
     all.background.Add(of_cell.background, 1);

@@ -17,15 +17,15 @@ struct BandPixel {
 
 // A stretch of the band between two neighbouring points of the curve.
 struct BandCell {
-  double share = 0;             // of its middle, along the leg
-  Eigen::Vector2d centre_px;    // on the curve
-  Eigen::Vector2d normal_px;    // unit, away from the leg
+  double share = 0;               // of its middle, along the leg
+  Eigen::Vector2d centre_px;      // on the curve
+  Eigen::Vector2d normal_px;      // unit, away from the leg
   bool follows_previous = false;  // shares an end with the cell before it
-  size_t first = 0, last = 0;   // its pixels
+  size_t first = 0, last = 0;     // its pixels
 };
 
-// Every pixel whose centre lies within a window about the visible stretches of a curve, each once and as it is:
-// nothing is interpolated, so that the noise stays independent from pixel to pixel.
+// Every pixel whose centre lies within a window about the visible stretches of a curve, each once and as it
+// is: nothing is interpolated, so that the noise stays independent from pixel to pixel.
 struct EdgeBand {
   std::vector<BandPixel> pixels;
   std::vector<BandCell> cells;
@@ -46,8 +46,8 @@ void Flatten(EdgeBand& band, double place_px);
 EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell, double outside_px,
                        double inside_px, double width_px);
 
-// Standard deviation of a pixel's grey noise, from the background's scatter about each cell's own mean; 0 if there
-// are too few pixels.
+// Standard deviation of a pixel's grey noise, from the background's scatter about each cell's own mean; 0 if
+// there are too few pixels.
 double GreyNoise(const EdgeBand& band);
 
 }  // namespace legible

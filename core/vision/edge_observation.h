@@ -19,8 +19,8 @@ struct EdgeSample {
 
 // One edge of one leg in one image.
 struct EdgeObservation {
-  int leg = 0;   // 0-based
-  int edge = 0;  // 0 or 1: outline normal n1 or n2 of CylinderOutline
+  int leg = 0;                      // 0-based
+  int edge = 0;                     // 0 or 1: outline normal n1 or n2 of CylinderOutline
   std::vector<EdgeSample> samples;  // in order along the edge
   // Of an error that all samples share because one model of the leg's shading gave them all; 0: none.
   double common_sigma_px = 0;

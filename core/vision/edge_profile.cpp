@@ -14,12 +14,12 @@ constexpr int kMaxColumns = 16;
 constexpr int kMaxSteps = 12;
 constexpr double kLongestStep_px = 0.5;
 constexpr double kSteady_px = 1e-4;
-constexpr double kOutsideSlope = 0.3;      // grey levels per px: prior of the background's slope
-const double kFirstKink_rad = getenv("FK")?atof(getenv("FK")):0.55;    // surface angle
+constexpr double kOutsideSlope = 0.3;    // grey levels per px: prior of the background's slope
+constexpr double kFirstKink_rad = 0.55;  // surface angle
 constexpr double kKinkStep_rad = 0.1;
-const double kKink = getenv("KP")?atof(getenv("KP")):28.6;             // grey levels per rad: prior of a kink in brightness over surface angle
-const double kStretchAngle = getenv("KA")?atof(getenv("KA")):3;       // grey levels per rad: of a stretch's line in psi about the whole edge's
-const double kStretchKink = getenv("KK")?atof(getenv("KK")):1;        // likewise of its kinks
+constexpr double kKink = 28.6;  // grey levels per rad: prior of a kink in brightness over surface angle
+// By which the squares must fall for a stretch to count as shaded in its own way.
+constexpr double kEvidenceOfChange = 25;
 constexpr double kCoefficientsOfKinks = 2.5;  // that a kinked profile counts for beyond the angular one's
 constexpr double kPixelVariance = 1.0 / 12;   // of a pixel's own extent
 constexpr double kStrictness = 2;             // times the BIC's price of a coefficient
@@ -30,7 +30,9 @@ using Columns = Eigen::Matrix<double, kMaxColumns, 1>;
 class Basis {
  public:
   Basis(ShadingModel model, const ProfileFitOptions& options)
-      : model_(model), s_(std::sqrt(options.blur_px * options.blur_px + kPixelVariance)), w_(options.half_width_px) {
+      : model_(model),
+        s_(std::sqrt(options.blur_px * options.blur_px + kPixelVariance)),
+        w_(options.half_width_px) {
     size_ = model == ShadingModel::kFlat ? 2 : 4;
     if (model != ShadingModel::kKinked) return;
     for (double psi = kFirstKink_rad; size_ < kMaxColumns; psi += kKinkStep_rad) {
@@ -105,14 +107,23 @@ CoefficientPrior PriorOf(const Basis& basis) {
   return prior;
 }
 
+// How far a stretch's shading may be from the whole edge's, grey levels per rad: of the line in psi, of each
+// kink.
+struct StretchScatter {
+  double angle;
+  double kink;
+};
+constexpr StretchScatter kAlikeAlongLeg{3, 1};
+constexpr StretchScatter kChangingAlongLeg{20, 20};
+
 // About the coefficients of the whole edge; levels free.
-CoefficientPrior PriorAbout(const ProfileFit& whole, const Basis& basis) {
+CoefficientPrior PriorAbout(const ProfileFit& whole, const StretchScatter& scatter, const Basis& basis) {
   CoefficientPrior prior = PriorOf(basis);
   if (basis.size() < 4) return prior;
   const Eigen::Index common = std::min<Eigen::Index>(basis.size(), whole.coefficients.size());
   prior.mean.head(common) = whole.coefficients.head(common);
-  prior.inverse_sigma[3] = 1 / kStretchAngle;
-  prior.inverse_sigma.tail(basis.size() - 4).setConstant(1 / kStretchKink);
+  prior.inverse_sigma[3] = 1 / scatter.angle;
+  prior.inverse_sigma.tail(basis.size() - 4).setConstant(1 / scatter.kink);
   return prior;
 }
 
@@ -126,7 +137,8 @@ struct NormalEquations {
 };
 
 NormalEquations Accumulate(const EdgeProfile& profile, const Basis& basis, const CoefficientPrior& prior,
-                           const Eigen::VectorXd& coefficients, double place, const ProfileFitOptions& options) {
+                           const Eigen::VectorXd& coefficients, double place,
+                           const ProfileFitOptions& options) {
   const int n = basis.size();
   Eigen::Matrix<double, kMaxColumns + 1, kMaxColumns + 1> matrix =
       Eigen::Matrix<double, kMaxColumns + 1, kMaxColumns + 1>::Zero();
@@ -172,7 +184,8 @@ ProfileFit Summarise(const NormalEquations& equations, ShadingModel model, doubl
   fit.model = model;
   fit.place_px = place;
   fit.coefficients = coefficients;
-  fit.contrast = model == ShadingModel::kFlat ? coefficients[1] - coefficients[0] : coefficients[2] - coefficients[0];
+  fit.contrast =
+      model == ShadingModel::kFlat ? coefficients[1] - coefficients[0] : coefficients[2] - coefficients[0];
   fit.squares = equations.data_squares + equations.prior_squares;
   const double freedom = equations.bins - (model == ShadingModel::kFlat ? 3.0 : 5.0);
   fit.chi2_per_bin = freedom > 0 ? equations.data_squares / freedom : 0;
@@ -185,7 +198,8 @@ ProfileFit Summarise(const NormalEquations& equations, ShadingModel model, doubl
 
 // Gauss-Newton on place and coefficients together, from a start of the place.
 std::optional<ProfileFit> Fit(const EdgeProfile& profile, ShadingModel model, const Basis& basis,
-                              const CoefficientPrior& prior, double start_px, const ProfileFitOptions& options) {
+                              const CoefficientPrior& prior, double start_px,
+                              const ProfileFitOptions& options) {
   const auto accumulate = [&](const Eigen::VectorXd& coefficients, double place) {
     return Accumulate(profile, basis, prior, coefficients, place, options);
   };
@@ -206,16 +220,20 @@ std::optional<ProfileFit> Fit(const EdgeProfile& profile, ShadingModel model, co
       coefficients += change.head(basis.size());
     else
       coefficients = SolveCoefficients(accumulate(zero, place));
-    if (std::abs(moved) < kSteady_px) return Summarise(accumulate(coefficients, place), model, place, coefficients);
+    if (std::abs(moved) < kSteady_px)
+      return Summarise(accumulate(coefficients, place), model, place, coefficients);
   }
   return std::nullopt;
 }
 
 double PriceOf(ShadingModel model) {
   switch (model) {
-    case ShadingModel::kFlat: return 2;
-    case ShadingModel::kAngular: return 4;
-    case ShadingModel::kKinked: return 4 + kCoefficientsOfKinks;
+    case ShadingModel::kFlat:
+      return 2;
+    case ShadingModel::kAngular:
+      return 4;
+    case ShadingModel::kKinked:
+      return 4 + kCoefficientsOfKinks;
   }
   return 0;
 }
@@ -231,7 +249,14 @@ std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel mo
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options) {
   const Basis basis(whole.model, options);
-  return Fit(profile, whole.model, basis, PriorAbout(whole, basis), whole.place_px, options);
+  const auto fit = [&](const StretchScatter& scatter) {
+    return Fit(profile, whole.model, basis, PriorAbout(whole, scatter, basis), whole.place_px, options);
+  };
+  const auto alike = fit(kAlikeAlongLeg);
+  const auto changing = fit(kChangingAlongLeg);
+  if (!alike || !changing) return alike ? alike : changing;
+  const double evidence = (alike->squares - changing->squares) / std::max(changing->chi2_per_bin, 1.0);
+  return evidence > kEvidenceOfChange ? changing : alike;
 }
 
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,

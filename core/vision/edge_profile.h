@@ -7,7 +7,8 @@
 
 namespace legible {
 
-// Mean brightness of the pixels at a signed distance from a line near the edge; `inside_px` grows into the leg.
+// Mean brightness of the pixels at a signed distance from a line near the edge; `inside_px` grows into the
+// leg.
 struct ProfileBin {
   double inside_px = 0;   // mean distance of the bin's pixels
   double brightness = 0;  // their mean, grey levels
@@ -15,43 +16,46 @@ struct ProfileBin {
 };
 using EdgeProfile = std::vector<ProfileBin>;
 
-// How much of the leg's shading the model follows. All are linear in their coefficients; the edge's place x0 and
-// the blur are not. With x = inside_px - x0, w the leg's half width and psi = acos(1 - x / w) the surface angle
-// from the outline (psi grows as sqrt(x): brightness is smooth in psi, not in x):
+// How much of the leg's shading the model follows. All are linear in their coefficients; the edge's place x0
+// and the blur are not. With x = inside_px - x0, w the leg's half width and psi = acos(1 - x / w) the surface
+// angle from the outline (psi grows as sqrt(x): brightness is smooth in psi, not in x):
 //   kFlat      outside e0, inside c0
 //   kAngular   outside e0 + e1 x, inside c0 + c1 psi
-//   kKinked    as kAngular plus sum a_j max(0, x - x_j): kinks where a light's shadow begins on the surface, from
+//   kKinked    as kAngular plus sum a_j max(0, x - x_j): kinks where a light's shadow begins on the surface,
+//   from
 //              psi = 0.55 rad on; nearer the outline nothing but the line in psi is allowed, for there a kink
 //              cannot be told from a shift of the edge
-// all convolved with a Gaussian of the given blur. e1 and a_j are held to zero by a prior of the size that lit
-// scenes show.
+// all convolved with a Gaussian of the given blur. e1 and a_j are held to zero by a prior of the size that
+// lit scenes show.
 enum class ShadingModel { kFlat, kAngular, kKinked };
 
 struct ProfileFit {
   ShadingModel model = ShadingModel::kFlat;
-  double place_px = 0;        // x0
-  double sigma_px = 0;        // of x0: grey noise through the model, enlarged where the model does not fit
-  double contrast = 0;        // inside minus outside at the edge, grey levels
-  double chi2_per_bin = 0;    // of the residuals, against the grey noise
-  double squares = 0;         // weighted sum of squared residuals and priors, in noise variances
+  double place_px = 0;      // x0
+  double sigma_px = 0;      // of x0: grey noise through the model, enlarged where the model does not fit
+  double contrast = 0;      // inside minus outside at the edge, grey levels
+  double chi2_per_bin = 0;  // of the residuals, against the grey noise
+  double squares = 0;       // weighted sum of squared residuals and priors, in noise variances
   Eigen::VectorXd coefficients;
 };
 
 struct ProfileFitOptions {
-  double blur_px = 0.7;        // Gaussian, of the image (the pixels' own extent is added)
-  double half_width_px = 12;   // w
-  double grey_noise = 2;       // standard deviation of a pixel
-  double outside_px = 8;       // window
+  double blur_px = 0.7;       // Gaussian, of the image (the pixels' own extent is added)
+  double half_width_px = 12;  // w
+  double grey_noise = 2;      // standard deviation of a pixel
+  double outside_px = 8;      // window
   double inside_px = 6;
 };
 
-// Fits one model from a start, by Gauss-Newton on the place with the linear coefficients solved for. Nothing where
-// the profile does not cover the edge or the place runs out of the window.
+// Fits one model from a start, by Gauss-Newton on the place with the linear coefficients solved for. Nothing
+// where the profile does not cover the edge or the place runs out of the window.
 std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel model, double start_px,
                                      const ProfileFitOptions& options);
 
-// Fits the profile of a stretch of an edge, from the fit of the whole edge: the shading's coefficients are expected
-// near the whole's (levels are free), and so is the place.
+// Fits the profile of a stretch of an edge, from the fit of the whole edge: the shading's coefficients are
+// expected near the whole's, levels are free. Where the profile speaks clearly against that (a shadow's
+// border runs slantwise along the leg) the coefficients may differ more, and the place is that much less
+// certain.
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options);
 
@@ -61,7 +65,8 @@ std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFi
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options);
 
-// Brightness that a fit predicts at `inside_px`, and its slope by the place's shift (grey levels per px outward).
+// Brightness that a fit predicts at `inside_px`, and its slope by the place's shift (grey levels per px
+// outward).
 struct PredictedBrightness {
   double value;
   double d_outward;

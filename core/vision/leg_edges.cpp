@@ -18,11 +18,12 @@ namespace {
 constexpr double kOutside_px = 8, kInside_px = 6;  // the fine band
 constexpr double kBin_px = 0.125;
 constexpr double kRoughBin_px = 0.5, kRoughStretch_px = 18;
-constexpr double kRoughTolerance_px = 0.9;   // of a stretch from the line through the others
+constexpr double kRoughTolerance_px = 0.9;  // of a stretch from the line through the others
 constexpr double kBendStep_px = 3;
-constexpr double kLeastGreyNoise = 0.5;      // quantisation alone leaves 0.3
-// Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the place by
-// its share of the contrast.
+constexpr double kLeastStretchContrast = 12;  // grey levels, of the same sign as the whole edge's
+constexpr double kLeastGreyNoise = 0.5;       // quantisation alone leaves 0.3
+// Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
+// place by its share of the contrast.
 constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
 constexpr double kOutlierSigmas = 4, kOutlierFloor_px = 0.1;
 constexpr double kFirstBlur_px = 0.75;
@@ -41,7 +42,8 @@ struct Work {
   bool Dropped() const { return !result->left_out.empty(); }
 };
 
-// The outline normal of the edge through two image points, on the side of `like`; nothing where the lens folds.
+// The outline normal of the edge through two image points, on the side of `like`; nothing where the lens
+// folds.
 std::optional<Eigen::Vector3d> NormalThrough(const Camera& camera, const Eigen::Vector2d& a_px,
                                              const Eigen::Vector2d& b_px, const Eigen::Vector3d& like) {
   const auto a = Unproject(camera, a_px), b = Unproject(camera, b_px);
@@ -68,8 +70,8 @@ void MoveTo(const Camera& camera, const Eigen::Vector3d& normal, Work& work) {
 // Moves the curve by `at_a` and `at_b` px outward at the leg's two ends.
 void ShiftEnds(const Camera& camera, double at_a_px, double at_b_px, Work& work) {
   const PredictedEdgePoint &a = work.predicted.points.front(), &b = work.predicted.points.back();
-  const auto normal = NormalThrough(camera, a.point_px + at_a_px * a.normal_px, b.point_px + at_b_px * b.normal_px,
-                                    work.predicted.normal);
+  const auto normal = NormalThrough(camera, a.point_px + at_a_px * a.normal_px,
+                                    b.point_px + at_b_px * b.normal_px, work.predicted.normal);
   if (normal) MoveTo(camera, *normal, work);
 }
 
@@ -118,10 +120,12 @@ struct RoughPlace {
 std::optional<RoughPlace> StrongestStep(const EdgeProfile& profile, const BandCell& middle) {
   RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0};
   for (size_t i = 2; i + 2 < profile.size(); ++i) {
-    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 || profile[i + 1].count == 0)
+    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 ||
+        profile[i + 1].count == 0)
       continue;
     const double step = (profile[i].brightness + profile[i + 1].brightness - profile[i - 1].brightness -
-                         profile[i - 2].brightness) / 2;
+                         profile[i - 2].brightness) /
+                        2;
     if (std::abs(step) <= std::abs(best.step)) continue;
     best.step = step;
     best.outward_px = -(profile[i].inside_px + profile[i - 1].inside_px) / 2;
@@ -149,8 +153,8 @@ RoughCurve CurveThrough(const RoughPlace& a, const RoughPlace& b, double bend_px
   return {straight(a) - slope * a.share, slope, bend_px, a.step, 0, 0};
 }
 
-// The curve through two of the places, with a bend up to largest_bend_px, on which most of the contrast of one
-// sign lies.
+// The curve through two of the places, with a bend up to largest_bend_px, on which most of the contrast of
+// one sign lies.
 RoughCurve Consensus(const std::vector<RoughPlace>& places, double largest_bend_px) {
   RoughCurve best;
   for (size_t i = 0; i < places.size(); ++i)
@@ -210,7 +214,8 @@ void FitAt(double blur_px, Work& work) {
   work.fit = FitSimplestModel(work.profile, 0, work.fit_options);
 }
 
-// The blur at which the profiles of all edges together fit best, by the parabola through three neighbouring misfits.
+// The blur at which the profiles of all edges together fit best, by the parabola through three neighbouring
+// misfits.
 class BlurSearch {
  public:
   explicit BlurSearch(const std::vector<Work>& works) : works_(works) {}
@@ -259,7 +264,8 @@ void SampleStretch(size_t first, size_t last, Work& work) {
   ProfileFitOptions options = work.fit_options;
   options.half_width_px *= work.leg->AxisPoint(0.5).z() / work.leg->AxisPoint(cell.share).z();
   const auto fit = FitStretch(profile, *work.fit, options);
-  if (!fit || fit->contrast * work.fit->contrast < 0) return;
+  if (!fit || fit->contrast * work.fit->contrast < kLeastStretchContrast * std::abs(work.fit->contrast))
+    return;
   Eigen::Vector2d centre = cell.centre_px;
   if ((last - first) % 2 == 0)  // an even number of cells: their middle is the end of a cell
     centre = (centre + work.band.cells[(first + last) / 2 - 1].centre_px) / 2;
@@ -286,7 +292,8 @@ Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& normal) {
   return tangents;
 }
 
-// One Gauss-Newton step of the outline normal towards the samples; drops samples that stand out from the line.
+// One Gauss-Newton step of the outline normal towards the samples; drops samples that stand out from the
+// line.
 void FitLine(const Camera& camera, Work& work) {
   LegEdge& edge = *work.result;
   edge.normal = work.predicted.normal;
@@ -332,14 +339,16 @@ void Judge(const LegEdgeOptions& options, Work& work) {
   if (std::abs(edge.contrast) < options.least_contrast)
     edge.left_out = fmt::format("contrast of only {:.0f} grey levels", std::abs(edge.contrast));
   else if (edge.observation.common_sigma_px > options.largest_common_sigma_px)
-    edge.left_out = fmt::format("its shading leaves its place open by {:.2f} px", edge.observation.common_sigma_px);
+    edge.left_out =
+        fmt::format("its shading leaves its place open by {:.2f} px", edge.observation.common_sigma_px);
   else if (edge.observation.samples.size() < 3)
     edge.left_out = "fewer than three stretches lie on one line";
 }
 
 class Measurement {
  public:
-  Measurement(const GrayImage& image, const LegsInCamera& legs, const Camera& camera, const LegEdgeOptions& options)
+  Measurement(const GrayImage& image, const LegsInCamera& legs, const Camera& camera,
+              const LegEdgeOptions& options)
       : image_(image), legs_(legs), camera_(camera), options_(options) {
     result_.edges.resize(2 * kLegCount);
     const PredictedEdges predicted = PredictEdges(legs, camera, options.visibility);
@@ -347,8 +356,13 @@ class Measurement {
       LegEdge& edge = result_.edges[static_cast<size_t>(i)];
       edge.leg = i / 2;
       edge.edge = i % 2;
-      works_.push_back({&edge, &legs_[static_cast<size_t>(i / 2)],
-                        predicted[static_cast<size_t>(i / 2)][static_cast<size_t>(i % 2)], {}, {}, {}, {}});
+      works_.push_back({&edge,
+                        &legs_[static_cast<size_t>(i / 2)],
+                        predicted[static_cast<size_t>(i / 2)][static_cast<size_t>(i % 2)],
+                        {},
+                        {},
+                        {},
+                        {}});
     }
     if (options.lock) Lock(predicted);
     for (Work& work : works_) CheckLength(work);

@@ -16,31 +16,31 @@ namespace legible {
 struct LegEdgeOptions {
   VisibilityOptions visibility;
   std::optional<LegLockOptions> lock = LegLockOptions{};  // none: the prediction is good to search_px
-  double search_px = 5;              // how far from the (locked) prediction an edge is looked for
-  // Places to half a pixel only, and edges that bend from the prediction by up to rough_bend_px (a quarter of that
-  // in the middle): what finds the camera while its lens is unknown.
+  double search_px = 5;  // how far from the (locked) prediction an edge is looked for
+  // Places to half a pixel only, and edges that bend from the prediction by up to rough_bend_px (a quarter of
+  // that in the middle): what finds the camera while its lens is unknown.
   bool rough_only = false;
   double rough_bend_px = 0;
-  double least_length_px = 40;       // of the visible stretch
-  double least_contrast = 15;        // grey levels: below, the shading of dark sides dominates
+  double least_length_px = 40;           // of the visible stretch
+  double least_contrast = 15;            // grey levels: below, the shading of dark sides dominates
   double largest_common_sigma_px = 0.1;  // an edge whose place is less certain is left out
-  double sample_length_px = 80;      // of edge behind each sample
-  std::optional<double> blur_px;     // known blur; otherwise estimated from all edges of the image together
+  double sample_length_px = 80;          // of edge behind each sample
+  std::optional<double> blur_px;  // known blur; otherwise estimated from all edges of the image together
 
   void Check() const;  // throws std::invalid_argument
 };
 
 // An edge as measured, or why it was not.
 struct LegEdge {
-  int leg = 0;   // 0-based
-  int edge = 0;  // 0 or 1
+  int leg = 0;           // 0-based
+  int edge = 0;          // 0 or 1
   std::string left_out;  // the reason; empty: measured
   EdgeObservation observation;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // outline normal of the line through the samples
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();  // of `normal`: rank 2
-  double contrast = 0;    // grey levels, inside minus outside
-  double length_px = 0;   // measured
-  double rms_px = 0;      // of the samples about their line
+  double contrast = 0;                                          // grey levels, inside minus outside
+  double length_px = 0;                                         // measured
+  double rms_px = 0;                                            // of the samples about their line
 };
 
 struct LegEdges {
@@ -49,9 +49,10 @@ struct LegEdges {
   double grey_noise = 0;       // standard deviation of a pixel
 };
 
-// Finds both edges of each leg: lock on to the legs coarsely, trace each edge roughly, then fit the brightness of
-// all pixels in a band along it (FitSimplestModel) with one blur for the image, and from that the place of each
-// stretch of sample_length_px. The lens distortion is followed exactly: bands bend with the predicted outline.
+// Finds both edges of each leg: lock on to the legs coarsely, trace each edge roughly, then fit the
+// brightness of all pixels in a band along it (FitSimplestModel) with one blur for the image, and from that
+// the place of each stretch of sample_length_px. The lens distortion is followed exactly: bands bend with the
+// predicted outline.
 LegEdges MeasureLegEdges(const GrayImage& image, const LegsInCamera& legs, const Camera& camera,
                          const LegEdgeOptions& options);
 

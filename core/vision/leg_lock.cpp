@@ -8,9 +8,9 @@
 namespace legible {
 namespace {
 
-constexpr int kProfiles = 24;             // a leg
-constexpr double kMaxContrast = 12;       // grey levels per px: a stronger edge counts no more than this
-constexpr double kCommonStep_px = 3;      // of the search for the common shift, about the blurred edge's width
+constexpr int kProfiles = 24;         // a leg
+constexpr double kMaxContrast = 12;   // grey levels per px: a stronger edge counts no more than this
+constexpr double kCommonStep_px = 3;  // of the search for the common shift, about the blurred edge's width
 constexpr int kRollSteps = 3, kScaleSteps = 3;  // to either side of the prediction
 constexpr double kLeastShareOfProfiles = 0.35;  // that must show both edges
 
@@ -25,9 +25,10 @@ double Bilinear(const GrayImage& image, const Eigen::Vector2d& p) {
 // How leg-like the image is at whole-pixel shifts across the predicted axis, at one place along it.
 struct Profile {
   Eigen::Vector2d centre_px;
-  Eigen::Vector2d across_px;     // unit, towards edge 2
-  double share = 0;              // along the axis
-  std::vector<float> leg_likeness;  // at shifts -reach … reach: the weaker of the two edges' contrasts, clipped
+  Eigen::Vector2d across_px;  // unit, towards edge 2
+  double share = 0;           // along the axis
+  std::vector<float>
+      leg_likeness;  // at shifts -reach … reach: the weaker of the two edges' contrasts, clipped
 };
 using LegProfiles = std::vector<Profile>;
 
@@ -117,7 +118,8 @@ CommonBest SearchCommonMove(const ProfileTable& table, const Eigen::Vector2d& ce
     for (int growth = -kScaleSteps; growth <= kScaleSteps; ++growth)
       for (int dx = -steps; dx <= steps; ++dx)
         for (int dy = -steps; dy <= steps; ++dy) {
-          const CommonMove move{kCommonStep_px * Eigen::Vector2d(dx, dy), roll * options.roll_range_rad / kRollSteps,
+          const CommonMove move{kCommonStep_px * Eigen::Vector2d(dx, dy),
+                                roll * options.roll_range_rad / kRollSteps,
                                 growth * options.scale_range / kScaleSteps, centre};
           const double score = CommonScore(table, move);
           if (score > best.score) best = {move, score};
@@ -125,8 +127,8 @@ CommonBest SearchCommonMove(const ProfileTable& table, const Eigen::Vector2d& ce
   return best;
 }
 
-std::optional<LegLock> SearchLeg(const ProfileTable& table, const LegProfiles& profiles, const CommonMove& move,
-                                 const LegLockOptions& options) {
+std::optional<LegLock> SearchLeg(const ProfileTable& table, const LegProfiles& profiles,
+                                 const CommonMove& move, const LegLockOptions& options) {
   if (profiles.empty()) return std::nullopt;
   const double base_a = move.Across(profiles.front()), base_b = move.Across(profiles.back());
   const int range = static_cast<int>(std::ceil(options.leg_range_px));
@@ -158,7 +160,8 @@ void LegLockOptions::Check() const {
     throw std::invalid_argument("LegLockOptions: blur and ranges must be positive");
 }
 
-std::array<std::optional<LegLock>, kLegCount> LockOnLegs(const GrayImage& image, const PredictedEdges& predicted,
+std::array<std::optional<LegLock>, kLegCount> LockOnLegs(const GrayImage& image,
+                                                         const PredictedEdges& predicted,
                                                          const LegLockOptions& options) {
   options.Check();
   const GrayImage blurred = Blurred(image, options.blur_px);

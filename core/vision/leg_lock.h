@@ -27,10 +27,11 @@ struct LegLock {
   double contrast = 0;  // mean over the profiles, grey levels per px
 };
 
-// First the shift, roll and scale common to all legs that puts most leg-like profiles (two opposite edges a leg's
-// width apart) under the predicted axes, by exhaustive search; then each leg by itself. A leg that shows no
-// two edges near its place gets none.
-std::array<std::optional<LegLock>, kLegCount> LockOnLegs(const GrayImage& image, const PredictedEdges& predicted,
+// First the shift, roll and scale common to all legs that puts most leg-like profiles (two opposite edges a
+// leg's width apart) under the predicted axes, by exhaustive search; then each leg by itself. A leg that
+// shows no two edges near its place gets none.
+std::array<std::optional<LegLock>, kLegCount> LockOnLegs(const GrayImage& image,
+                                                         const PredictedEdges& predicted,
                                                          const LegLockOptions& options);
 
 }  // namespace legible

@@ -25,7 +25,8 @@ Approach NearestApproach(const Eigen::Vector3d& sight, const LegInCamera& leg) {
   return {(nearest - depth * sight).norm(), share, depth};
 }
 
-// The convex hull of the platform joints about their mean plane, widened, as something that hides what is behind.
+// The convex hull of the platform joints about their mean plane, widened, as something that hides what is
+// behind.
 class Plate {
  public:
   Plate(const LegsInCamera& legs, double margin_m) {
@@ -78,7 +79,8 @@ class Obstacles {
 
   void Mark(int leg, const Eigen::Vector3d& on_edge, PredictedEdgePoint& point) const {
     const LegInCamera& own = legs_[static_cast<size_t>(leg)];
-    const double joint_share = options_.joint_radii * own.radius_m / (own.b_in_camera - own.a_in_camera).norm();
+    const double joint_share =
+        options_.joint_radii * own.radius_m / (own.b_in_camera - own.a_in_camera).norm();
     if (point.share < joint_share || point.share > 1 - joint_share)
       point.obstacle = EdgeObstacle::kJoint;
     else if (NearBorder(point.point_px))
@@ -117,8 +119,9 @@ class Obstacles {
   Plate plate_;
 };
 
-PredictedEdge PredictEdge(const LegInCamera& leg, int leg_index, const Eigen::Vector3d& normal, const Camera& camera,
-                          const Obstacles& obstacles, const VisibilityOptions& options) {
+PredictedEdge PredictEdge(const LegInCamera& leg, int leg_index, const Eigen::Vector3d& normal,
+                          const Camera& camera, const Obstacles& obstacles,
+                          const VisibilityOptions& options) {
   PredictedEdge edge{normal, 0, {}};
   if (leg.a_in_camera.z() <= 0 || leg.b_in_camera.z() <= 0) return edge;
   const double length_px = (Project(camera, leg.a_in_camera) - Project(camera, leg.b_in_camera)).norm();
@@ -169,7 +172,8 @@ std::optional<ImagePointOnEdge> EdgePointNear(const Camera& camera, const Eigen:
                           normal_px.normalized()};
 }
 
-PredictedEdges PredictEdges(const LegsInCamera& legs, const Camera& camera, const VisibilityOptions& options) {
+PredictedEdges PredictEdges(const LegsInCamera& legs, const Camera& camera,
+                            const VisibilityOptions& options) {
   const Obstacles obstacles(legs, camera, options);
   PredictedEdges edges;
   for (int i = 0; i < kLegCount; ++i) {
@@ -185,11 +189,16 @@ PredictedEdges PredictEdges(const LegsInCamera& legs, const Camera& camera, cons
 
 std::string Describe(const PredictedEdgePoint& point) {
   switch (point.obstacle) {
-    case EdgeObstacle::kNone: return "visible";
-    case EdgeObstacle::kOtherLeg: return "hidden or crossed by leg " + std::to_string(point.obstacle_leg + 1);
-    case EdgeObstacle::kPlatform: return "behind the platform";
-    case EdgeObstacle::kJoint: return "at a joint";
-    case EdgeObstacle::kImageBorder: return "outside the image";
+    case EdgeObstacle::kNone:
+      return "visible";
+    case EdgeObstacle::kOtherLeg:
+      return "hidden or crossed by leg " + std::to_string(point.obstacle_leg + 1);
+    case EdgeObstacle::kPlatform:
+      return "behind the platform";
+    case EdgeObstacle::kJoint:
+      return "at a joint";
+    case EdgeObstacle::kImageBorder:
+      return "outside the image";
   }
   return "";
 }

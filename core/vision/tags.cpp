@@ -75,8 +75,8 @@ std::vector<TagDetection> TagDetector::Detect(const GrayImage& image) const {
     zarray_get(found, i, &detection);
     TagDetection tag{detection->id, {}};
     for (size_t corner = 0; corner < 4; ++corner)
-      tag.corners_px[corner] = Eigen::Vector2d(detection->p[corner][0], detection->p[corner][1]).array() -
-                               kLibraryPixelOffset_px;
+      tag.corners_px[corner] =
+          Eigen::Vector2d(detection->p[corner][0], detection->p[corner][1]).array() - kLibraryPixelOffset_px;
     detections.push_back(tag);
   }
   apriltag_detections_destroy(found);
@@ -110,7 +110,8 @@ std::optional<GroupPose> LocateGroup(const Camera& camera, const GroupSighting& 
   if (object.size() < 4) return std::nullopt;
   std::vector<cv::Mat> rotations, translations;
   std::vector<double> errors;
-  // Normalised coordinates: the identity camera. Both solutions that a plane allows come back, the better first.
+  // Normalised coordinates: the identity camera. Both solutions that a plane allows come back, the better
+  // first.
   cv::solvePnPGeneric(object, image, cv::Matx33d::eye(), cv::noArray(), rotations, translations, false,
                       cv::SOLVEPNP_SQPNP, cv::noArray(), cv::noArray(), errors);
   if (rotations.empty()) return std::nullopt;
@@ -121,8 +122,9 @@ std::optional<GroupPose> LocateGroup(const Camera& camera, const GroupSighting& 
   GroupPose pose{{RotationFromVector(vector(rotations[0])), vector(translations[0])}, 0};
   double squares = 0;
   for (size_t i = 0; i < sighting.corners_px.size(); ++i)
-    squares += (Project(camera, pose.camera_from_group * sighting.corners_in_group_m[i]) - sighting.corners_px[i])
-                   .squaredNorm();
+    squares +=
+        (Project(camera, pose.camera_from_group * sighting.corners_in_group_m[i]) - sighting.corners_px[i])
+            .squaredNorm();
   pose.rms_px = std::sqrt(squares / static_cast<double>(sighting.corners_px.size()));
   return pose;
 }

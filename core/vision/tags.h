@@ -15,11 +15,13 @@ namespace legible {
 
 struct TagDetection {
   int id = 0;
-  // px, centre of the top-left pixel at (0, 0): bottom-left, bottom-right, top-right, top-left of the black border.
+  // px, centre of the top-left pixel at (0, 0): bottom-left, bottom-right, top-right, top-left of the black
+  // border.
   std::array<Eigen::Vector2d, 4> corners_px;
 };
 
-// Finds tags of one family. Holds the library's detector, which is costly to make; not for use by two threads.
+// Finds tags of one family. Holds the library's detector, which is costly to make; not for use by two
+// threads.
 class TagDetector {
  public:
   // Throws std::invalid_argument for a family that libapriltag does not have.

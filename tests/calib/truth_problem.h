@@ -18,7 +18,7 @@ struct TruthProblemOptions {
   bool rigid_platform = true;
   bool joint_readings = true;
   double joint_reading_sigma_m = 2e-5;
-  EdgeNoise noise;
+  EdgeNoise noise = {};
 };
 
 // What CalibrateLegs would solve for these observations of the session (Brown-Conrady lens, nothing else

@@ -1,0 +1,158 @@
+#include "apps/calibrate_command.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "apps/calibration_json.h"
+#include "apps/calibration_report.h"
+#include "apps/calibration_run.h"
+#include "apps/console_summary.h"
+#include "apps/output_folder.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "apps/report_images.h"
+#include "apps/report_page.h"
+#include "core/vision/gray_image.h"
+#include "datasets/atomic_file.h"
+#include "datasets/input_error.h"
+#include "datasets/model_file.h"
+#include "datasets/session_file.h"
+
+namespace legible {
+namespace {
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// What no estimation is needed for to see that it cannot start.
+void DemandPlaceOfCamera(const Session& session) {
+  if (session.camera_from_base) return;
+  if (session.tags)
+    for (const TagGroup& group : session.tags->groups)
+      if (group.carrier == TagCarrier::kBase) return;
+  const std::filesystem::path& camera_yaml = session.files.at(2);
+  throw InputError(camera_yaml, 0,
+                   "does not say where the camera is, and the session names no tags on the base",
+                   "give camera_from_base (a tape measure will do), or tags on the base");
+}
+
+InputError CannotBeUsed(const Session& session, const SessionImage& image,
+                        const std::optional<GrayImage>& pixels) {
+  const Camera& camera = session.camera;
+  const std::string others = session.images.size() > 1 ? ", and no other image can be used either" : "";
+  if (!pixels)
+    return InputError(image.file, 0, "is not an image, or damaged" + others,
+                      "give images that can be opened");
+  return InputError(image.file, 0,
+                    fmt::format("is {} x {} px, where {} says {} x {}{}", pixels->width, pixels->height,
+                                session.files.at(2).string(), camera.width_px, camera.height_px, others),
+                    "give the camera of these images, or images of this camera");
+}
+
+// Throws for the first image if none at all can be used; an image among others is left out instead.
+void DemandSomeImage(const Session& session) {
+  std::optional<InputError> first_error;
+  for (const SessionImage& image : session.images) {
+    const std::optional<GrayImage> pixels = ReadGrayImage(image.file);
+    if (pixels && pixels->width == session.camera.width_px && pixels->height == session.camera.height_px)
+      return;
+    if (!first_error) first_error = CannotBeUsed(session, image, pixels);
+  }
+  if (first_error) throw *first_error;
+}
+
+CalibrationRun Load(const CalibrateSettings& settings) {
+  CalibrationRun run;
+  run.settings = settings;
+  run.session = ReadSession(settings.session);
+  DemandPlaceOfCamera(run.session);
+  DemandSomeImage(run.session);
+  run.session.known = WithSettings(run.session.known, settings);
+  run.options = ToOptions(settings, run.session.known);
+  run.content_hash = ContentHash(run.session);
+  return run;
+}
+
+void ShowProgressOn(ProgressLine& line, SessionCalibrationOptions& options) {
+  options.progress = [&line](const std::string& stage, int done, int total) {
+    line.Show(StageText(stage, done, total));
+  };
+  options.estimation.progress = [&line](int iteration, double rms_px) {
+    line.Show(IterationText(iteration, rms_px));
+  };
+}
+
+// What the library finds wrong with a session only once it is at work is bad input all the same.
+SessionCalibration Calibrate(const CalibrationRun& run) try {
+  return CalibrateSession(run.session, run.options);
+} catch (const std::invalid_argument& error) {
+  throw InputError(run.settings.session, 0, "cannot be calibrated", error.what());
+}
+
+CalibratedModel ModelOf(const CalibrationRun& run) {
+  CalibratedModel model = ToModel(run.result.calibration);
+  model.provenance = {{"session", SessionPath(run)},
+                      {"content_hash", run.content_hash},
+                      {"program_version", ProgramVersion()},
+                      {"options", OptionsText(run.settings)}};
+  return model;
+}
+
+void Write(const CalibrationRun& run, const std::string& json, const std::string& page) {
+  WriteTogether(run.settings.out, {"model.yaml", "calibration.json", "report.html"},
+                [&](const std::filesystem::path& folder) {
+                  if (run.result.calibration.status == CalibrationStatus::kConverged)
+                    WriteModel(folder / "model.yaml", ModelOf(run));
+                  WriteFileAtomically(folder / "calibration.json", json);
+                  WriteFileAtomically(folder / "report.html", page);
+                });
+}
+
+void Print(const CalibrationRun& run, const FoundParameters& found, const std::string& json,
+           const Console& console) {
+  console.err << WarningsText(run);
+  if (run.settings.prints_json)
+    console.out << json;
+  else
+    console.out << SummaryText(run, found) << FilesText(run);
+  console.err << WhyThereIsNoModel(run);
+}
+
+}  // namespace
+
+int RunCalibrate(const CalibrateSettings& settings, const Console& console) {
+  const Stopwatch total;
+  DemandWritable(settings.out);
+  CalibrationRun run = Load(settings);
+  const double load_s = total.Seconds();
+
+  ProgressLine progress(console);
+  ShowProgressOn(progress, run.options);
+  run.result = Calibrate(run);
+  progress.Show("writing the report");
+  const Stopwatch report;
+  const nlohmann::json images = ReportImages(run);
+  run.report_s = report.Seconds();
+  run.result.times.read_s += load_s;
+  run.result.times.total_s = total.Seconds();
+
+  const FoundParameters found = WhatWasFound(run);
+  const nlohmann::ordered_json calibration = CalibrationJson(run, found);
+  const std::string json = JsonText(calibration);
+  Write(run, json, RenderReportPage(ReportData(run, found, calibration, images)));
+  progress.Clear();
+  Print(run, found, json, console);
+  return run.result.calibration.status == CalibrationStatus::kConverged ? kExitSuccess : kExitNoResult;
+}
+
+}  // namespace legible

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/calibrate_command.h"
+
+namespace legible {
+namespace {
+
+constexpr int kMostThreads = 1024;
+constexpr char kDescription[] =
+    "Calibrate a hexapod and its camera from images of the legs and joint readings";
+constexpr char kFooter[] = R"(A session is a folder with
+  session.yaml   names the other files, and says how well what is known beforehand
+  robot.yaml     the drawing: base and platform joints, radii, joint offsets and ranges
+  camera.yaml    a first guess of the camera (ROS camera_info; fx to some 5 %), and where it stands
+                 (camera_from_base, by tape measure), unless tags on the base say that
+  joints.csv     image,q1_m,...,q6_m: the joint readings of each image
+  images/        some forty images in clearly different poses, the camera not moved in between
+  tags.yaml      optional: AprilTags on the base or the platform
+
+Written to the folder of --out, all together at the end:
+  model.yaml         the calibrated robot and camera with their covariance, for the other commands
+  calibration.json   the same for other programs: values, sigmas, residuals, what is not determined
+  report.html        the same to look at, with found and predicted edges over each image
+
+Exit codes:
+  0  a model was found
+  1  no model: the data leave something open or the estimate did not converge; says why, and writes
+     calibration.json and report.html with what is known
+  2  bad usage or bad input; one line says where and what to do; nothing is written
+
+Examples:
+  legible calibrate datasets/hexapod
+  legible calibrate my-session --out result --known radius_m=2e-5 --hold principal-point
+  legible calibrate my-session --format json | jq .held_out.rms_px)";
+
+CLI::ValidationError NoneOf(const std::string& option, const std::string& value,
+                            const std::vector<std::string>& names) {
+  return CLI::ValidationError(option, fmt::format("\"{}\" is none of {}", value, fmt::join(names, ", ")));
+}
+
+void DemandOneOf(const std::string& option, const std::string& value, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), value) == names.end()) throw NoneOf(option, value, names);
+}
+
+void AddOutputOptions(CLI::App& command, CalibrateSettings& settings) {
+  command.add_option("--out", settings.out, "Folder for the results")
+      ->type_name("DIR")
+      ->default_str(settings.out.string());
+  command
+      .add_option_function<std::string>(
+          "--format",
+          [&settings](const std::string& format) {
+            DemandOneOf("--format", format, {"table", "json"});
+            settings.prints_json = format == "json";
+          },
+          "What goes to standard output: a table for\npeople, or the text of calibration.json")
+      ->type_name("table|json");
+  command.add_flag_callback(
+      "--no-pictures", [&settings] { settings.embeds_pictures = false; },
+      "Leave the images out of report.html");
+}
+
+void AddModelOptions(CLI::App& command, CalibrateSettings& settings) {
+  command
+      .add_option_function<std::string>(
+          "--lens",
+          [&settings](const std::string& name) {
+            DemandOneOf("--lens", name, LensNames());
+            settings.lens = LensFromName(name);
+          },
+          "Lens model to estimate, with 0, 5 or 8 coefficients;\nwithout it that of camera.yaml")
+      ->type_name(fmt::format("{}", fmt::join(LensNames(), "|")));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--hold",
+          [&settings](const std::vector<std::string>& names) {
+            for (const std::string& name : names) DemandOneOf("--hold", name, HoldNames());
+            settings.hold = names;
+          },
+          fmt::format("Keep as the session's files have it; comma\nseparated or repeated. Names:\n{}",
+                      fmt::join(HoldNames(), "\n")))
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+std::vector<std::pair<std::string, std::optional<double>>> ParseAllKnown(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::optional<double>>> known;
+  try {
+    for (const std::string& text : texts) known.push_back(ParseKnown(text));
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError("--known", error.what());
+  }
+  return known;
+}
+
+void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--known",
+          [&settings](const std::vector<std::string>& texts) { settings.known = ParseAllKnown(texts); },
+          fmt::format("How well something is known beforehand (1 sigma),\nover what session.yaml says; "
+                      "NAME=none: not "
+                      "at all.\nComma separated or repeated. Names:\n{}",
+                      fmt::join(KnownNames(), "\n")))
+      ->type_name("NAME=SIGMA")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag_callback(
+      "--no-readings", [&settings] { settings.use_readings = false; },
+      "Leave the joint readings out. Where nothing known\nor held then sets a scale, as with --free-legs");
+  command.add_flag(
+      "--free-legs", settings.free_legs,
+      "Edges only: no readings, no rigid platform (each\nleg's direction is free in each image), and "
+      "nothing\nknown beforehand but by --known");
+}
+
+void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
+  command
+      .add_option("--folds", settings.folds,
+                  "Images are held out in so many turns to check\nthe model; 0: not at all")
+      ->check([](const std::string& text) {
+        return text == "1" || text.starts_with('-') ? "give 0, or 2 and more" : std::string();
+      })
+      ->type_name("N")
+      ->capture_default_str();
+  settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command
+      .add_option("--threads", settings.threads,
+                  "How many threads work at a time;\nwithout it one a processor")
+      ->check(CLI::Range(1, kMostThreads).description(""))
+      ->type_name("N");
+}
+
+}  // namespace
+
+const CLI::App* AddCalibrateCommand(CLI::App& program, CalibrateSettings& settings) {
+  CLI::App* command = program.add_subcommand("calibrate", kDescription)->group("Commands");
+  command->footer(kFooter);
+  command->add_option("SESSION", settings.session, "Folder of the session")->required()->type_name("");
+  AddOutputOptions(*command, settings);
+  AddModelOptions(*command, settings);
+  AddKnowledgeOptions(*command, settings);
+  AddWorkOptions(*command, settings);
+  return command;
+}
+
+}  // namespace legible

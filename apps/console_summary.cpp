@@ -1,0 +1,162 @@
+#include "apps/console_summary.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <functional>
+
+namespace legible {
+namespace {
+
+constexpr int kTooFewImages = 4;         // whatever is open, more of them come first
+constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json has all
+
+std::string Capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string Plural(int count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string HeadLine(const CalibrationRun& run) {
+  std::string status = Capitalised(ToString(run.result.calibration.status));
+  for (char& letter : status)
+    if (letter == '_') letter = ' ';
+  return fmt::format("{}: {} of {} and {} used. {}\n", status, CountUsedImages(run.result),
+                     Plural(static_cast<int>(run.result.images.size()), "image"),
+                     Plural(CountUsedEdges(run.result), "leg edge"),
+                     AssumptionText(run.settings, run.session.known));
+}
+
+std::string FitText(const CalibrationRun& run) {
+  const LegCalibration& calibration = run.result.calibration;
+  if (calibration.edges.empty()) return "";
+  std::string text = fmt::format("Residual {:.3f} px rms; one edge point has σ {:.3f} px.",
+                                 calibration.rms_px, calibration.edge_sigma_px);
+  if (run.result.held_out_rms_px)
+    text += fmt::format(" On images held out: {:.3f} px rms.", *run.result.held_out_rms_px);
+  text += "\n";
+  for (const TagCheck& check : run.result.tag_checks)
+    text += Capitalised(TagSentence(run.session, check)) + ".\n";
+  return text;
+}
+
+// "+1.21 ± 0.08", "held", or a dash where nothing is known.
+std::string Difference(double found, double drawn, double sigma, double scale, int decimals) {
+  if (std::isnan(found)) return "-";
+  if (sigma == 0) return "held";
+  return fmt::format("{:+.{}f} ± {:.{}f}", scale * (found - drawn), decimals, scale * sigma, decimals);
+}
+
+std::string CameraTable(const CalibrationRun& run, const FoundParameters& found) {
+  const CameraParameters guess = ParametersOf(run.session.camera);
+  const int count = 4 + static_cast<int>(run.options.lens.value_or(run.session.camera.lens));
+  std::string text = fmt::format("\n{:<16}{:>12}{:>20}\n", "Camera", "first guess", "found - guess, ± σ");
+  for (int i = 0; i < count; ++i) {
+    const int decimals = i < 4 ? 2 : 5;
+    const std::string name = ParameterName(i).substr(std::string("camera.").size());
+    text += fmt::format("  {:<14}{:>12.{}f}{:>20}\n", name, guess[i], decimals,
+                        Difference(found.camera[i], guess[i], found.camera_sigma[i], 1, decimals));
+  }
+  return text;
+}
+
+struct LegRow {
+  const char* label;
+  double scale;
+  int decimals;
+  std::function<double(const FoundLeg&)> found;
+  std::function<double(const Leg&)> drawn;
+  std::function<double(const LegSigma&)> sigma;
+};
+
+std::vector<LegRow> LegRows() {
+  std::vector<LegRow> rows;
+  const char* const a_labels[] = {"A x  mm", "A y  mm", "A z  mm"};
+  const char* const b_labels[] = {"B x  mm", "B y  mm", "B z  mm"};
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({a_labels[i], 1e3, 2, [i](const FoundLeg& leg) { return leg.base_joint_m[i]; },
+                    [i](const Leg& leg) { return leg.base_joint_m[i]; },
+                    [i](const LegSigma& sigma) { return sigma.base_joint_m[i]; }});
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({b_labels[i], 1e3, 2, [i](const FoundLeg& leg) { return leg.platform_joint_m[i]; },
+                    [i](const Leg& leg) { return leg.platform_joint_m[i]; },
+                    [i](const LegSigma& sigma) { return sigma.platform_joint_m[i]; }});
+  rows.push_back({"R    µm", 1e6, 0, [](const FoundLeg& leg) { return leg.radius_m; },
+                  [](const Leg& leg) { return leg.radius_m; },
+                  [](const LegSigma& sigma) { return sigma.radius_m; }});
+  rows.push_back({"offset mm", 1e3, 3, [](const FoundLeg& leg) { return leg.joint_offset_m; },
+                  [](const Leg& leg) { return leg.joint_offset_m; },
+                  [](const LegSigma& sigma) { return sigma.joint_offset_m; }});
+  return rows;
+}
+
+std::string LegTable(const CalibrationRun& run, const FoundParameters& found) {
+  std::string text = fmt::format("\n{:<11}", "Found - drawn");
+  for (int leg = 1; leg <= kLegCount; ++leg) text += fmt::format("{:>16}", fmt::format("leg {}", leg));
+  text += "\n";
+  for (const LegRow& row : LegRows()) {
+    text += fmt::format("  {:<11}", row.label);
+    for (size_t i = 0; i < kLegCount; ++i)
+      text += fmt::format("{:>16}", Difference(row.found(found.legs[i]), row.drawn(run.session.robot.legs[i]),
+                                               row.sigma(found.legs[i].sigma), row.scale, row.decimals));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string OpenSentences(const std::vector<WeakDirection>& open) {
+  std::string text;
+  for (size_t i = 0; i < std::min(open.size(), kSentencesPrinted); ++i)
+    text += fmt::format("  {}.\n", Capitalised(open[i].description));
+  if (open.size() > kSentencesPrinted)
+    text += fmt::format("  … and {} more, which calibration.json lists.\n", open.size() - kSentencesPrinted);
+  return text;
+}
+
+}  // namespace
+
+std::string SummaryText(const CalibrationRun& run, const FoundParameters& found) {
+  const bool has_model = run.result.calibration.status == CalibrationStatus::kConverged;
+  return HeadLine(run) + FitText(run) + (has_model ? CameraTable(run, found) + LegTable(run, found) : "");
+}
+
+std::string FilesText(const CalibrationRun& run) {
+  const bool has_model = run.result.calibration.status == CalibrationStatus::kConverged;
+  return fmt::format("\nWrote {}calibration.json and report.html to {} ({:.1f} s).\n",
+                     has_model ? "model.yaml, " : "", run.settings.out.string(), run.result.times.total_s);
+}
+
+std::string WhyThereIsNoModel(const CalibrationRun& run) {
+  const LegCalibration& calibration = run.result.calibration;
+  if (calibration.status == CalibrationStatus::kConverged) return "";
+  const int used = CountUsedImages(run.result);
+  if (used < kTooFewImages)
+    return fmt::format(
+        "legible: no model: {} could be used, too few to determine the parameters; give some forty in "
+        "clearly different poses\n",
+        used == 0 ? "no image" : "only " + Plural(used, "image"));
+  if (calibration.status == CalibrationStatus::kUnobservable)
+    return "legible: no model: the session leaves parameters open.\n" +
+           OpenSentences(calibration.observability.unobservable);
+  return fmt::format("legible: no model: {}.\n", calibration.message);
+}
+
+std::string WarningsText(const CalibrationRun& run) {
+  std::string text;
+  for (size_t i = 0; i < run.result.images.size(); ++i)
+    if (const std::string reason = WhyLeftOut(run.result.images[i]); !reason.empty())
+      text +=
+          fmt::format("legible: warning: {}: left out: {}\n", run.session.images[i].file.string(), reason);
+  if (!run.session.unlisted_images.empty())
+    text +=
+        fmt::format("legible: warning: {} of the session's folder {} no row in joints.csv and took no part\n",
+                    Plural(static_cast<int>(run.session.unlisted_images.size()), "image"),
+                    run.session.unlisted_images.size() == 1 ? "has" : "have");
+  return text;
+}
+
+}  // namespace legible

@@ -1,0 +1,23 @@
+// What a person reads on the console at the end of a calibration.
+#pragma once
+
+#include <string>
+
+#include "apps/calibration_run.h"
+#include "apps/found_parameters.h"
+
+namespace legible {
+
+// The result in some twenty lines: how well it fits, what was found against the drawing.
+std::string SummaryText(const CalibrationRun& run, const FoundParameters& found);
+
+// Where the files are.
+std::string FilesText(const CalibrationRun& run);
+
+// Why there is no model, in sentences; empty where there is one.
+std::string WhyThereIsNoModel(const CalibrationRun& run);
+
+// A line for each image of the session that took no part.
+std::string WarningsText(const CalibrationRun& run);
+
+}  // namespace legible

@@ -1,0 +1,178 @@
+// `legible calibrate` on the shipped session and on what is left of it: images in, files out.
+#include <Eigen/Eigenvalues>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "datasets/model_file.h"
+#include "datasets/session_file.h"
+#include "tests/apps/program_fixture.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::UnorderedElementsAre;
+
+std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename());
+  return names;
+}
+
+// Numbers in a value, at any depth; nulls count apart.
+struct Numbers {
+  int known = 0, null = 0;
+};
+Numbers CountNumbers(const json& value) {
+  if (value.is_null()) return {0, 1};
+  if (value.is_number()) return {1, 0};
+  Numbers sum;
+  if (!value.is_structured()) return sum;
+  for (const json& part : value) {
+    const Numbers of_part = CountNumbers(part);
+    sum = {sum.known + of_part.known, sum.null + of_part.null};
+  }
+  return sum;
+}
+
+void ExpectNumbers(const json& value, int count) {
+  EXPECT_EQ(CountNumbers(value).known, count) << value;
+  EXPECT_EQ(CountNumbers(value).null, 0) << value;
+}
+
+void ExpectLegsKnown(const json& legs) {
+  ASSERT_EQ(legs.size(), 6u);
+  for (const json& leg : legs) {
+    for (const json& values : {leg, leg.at("sigma")}) {
+      for (const char* point : {"base_joint_m", "base_joint_in_camera_m", "platform_joint_m"})
+        ExpectNumbers(values.at(point), 3);
+      ExpectNumbers(values.at("radius_m"), 1);
+      ExpectNumbers(values.at("joint_offset_m"), 1);
+    }
+    EXPECT_GT(leg.at("sigma").at("radius_m"), 0);
+  }
+}
+
+void ExpectCameraKnown(const json& document) {
+  for (const json& values : {document.at("camera"), document.at("camera").at("sigma")}) {
+    for (const char* name : {"fx", "fy", "cx", "cy"}) ExpectNumbers(values.at(name), 1);
+    ExpectNumbers(values.at("distortion"), 5);
+  }
+  ExpectNumbers(document.at("camera_from_base").at("rotation_xyzw"), 4);
+  ExpectNumbers(document.at("camera_from_base").at("translation_m"), 3);
+}
+
+void ExpectEveryMemberOfAModel(const json& document) {
+  EXPECT_EQ(document.at("status"), "converged");
+  for (const char* name : {"rms_px", "edge_sigma_px", "images_used", "edges_used"})
+    ExpectNumbers(document.at(name), 1);
+  ExpectCameraKnown(document);
+  ExpectLegsKnown(document.at("legs"));
+  EXPECT_EQ(document.at("images_left_out"), json::array());
+  EXPECT_EQ(document.at("unobservable"), json::array());
+  ExpectNumbers(document.at("held_out").at("rms_px"), 1);
+  for (const char* stage : {"read", "detect", "solve", "covariance", "total"})
+    ExpectNumbers(document.at("time_s").at(stage), 1);
+}
+
+// Of correlations: covariances mix px^2 with m^2.
+double LeastEigenvalueOfCorrelations(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd scale = covariance.diagonal().array().max(1e-300).sqrt().inverse();
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation).eigenvalues().minCoeff();
+}
+
+void ExpectTraceableModel(const CalibratedModel& model, const std::filesystem::path& session) {
+  EXPECT_TRUE(model.camera && model.camera_from_base);
+  EXPECT_GT(model.covariance.diagonal().maxCoeff(), 0);
+  EXPECT_GT(LeastEigenvalueOfCorrelations(model.covariance), -1e-9);
+  EXPECT_EQ(model.provenance.at("content_hash"), ContentHash(ReadSession(session)));
+  EXPECT_EQ(model.provenance.at("session"), session);
+  EXPECT_EQ(model.provenance.at("program_version"), ProgramVersion());
+  EXPECT_EQ(model.provenance.at("options"), "none");
+}
+
+using Calibrate = HexapodSession;
+
+TEST_F(Calibrate, TurnsTheShippedSessionIntoAModelAReportAndASummary) {
+  const ProgramRun run = RunOnIt();
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  EXPECT_EQ(run.err, "");
+  for (const char* part :
+       {"Converged: 16 of 16 images", "held out", "Tags platform_tag", "fx_px", "offset mm"})
+    EXPECT_THAT(run.out, HasSubstr(part));
+  EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("model.yaml", "calibration.json", "report.html"));
+  ExpectEveryMemberOfAModel(json::parse(Bytes(out() / "calibration.json")));
+  ExpectTraceableModel(ReadModel(out() / "model.yaml"), session());
+  EXPECT_THAT(Bytes(out() / "report.html"), HasSubstr("data:image/jpeg;base64,"));
+}
+
+TEST_F(Calibrate, NamesTheScaleOfEachLegWhereThereAreOnlyEdges) {
+  folder_.Write("out/model.yaml", "of an earlier run");
+  const ProgramRun run = RunOnIt({"--free-legs", "--hold", "focal-length", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
+  const json document = json::parse(Bytes(out() / "calibration.json"));
+  EXPECT_EQ(document.at("status"), "unobservable");
+  ASSERT_EQ(document.at("unobservable").size(), 6u) << document.at("unobservable");
+  for (int leg = 1; leg <= 6; ++leg) {
+    const std::string scale = "scale of leg " + std::to_string(leg) + " is free";
+    EXPECT_THAT(document.at("unobservable").at(static_cast<size_t>(leg - 1)), HasSubstr(scale));
+    EXPECT_THAT(run.err, HasSubstr(scale));
+  }
+  EXPECT_EQ(CountNumbers(document.at("legs")).known, 0);
+  EXPECT_EQ(CountNumbers(document.at("camera_from_base")).known, 0);
+  EXPECT_THAT(run.out, Not(HasSubstr("±")));
+  EXPECT_THAT(Bytes(out() / "report.html"), Not(HasSubstr("data:image/jpeg")));
+}
+
+TEST_F(Calibrate, SaysInOneLineThatOneImageIsTooFew) {
+  KeepImages(1);
+  const ProgramRun run = RunOnIt();
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_EQ(run.err,
+            "legible: no model: only 1 image could be used, too few to determine the parameters; give some "
+            "forty in clearly different poses\n");
+  EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
+  EXPECT_EQ(CountNumbers(json::parse(Bytes(out() / "calibration.json")).at("camera_from_base")).known, 0);
+}
+
+// The libraries below have messages of their own.
+TEST_F(Calibrate, AsAProcessWritesThatLineAndNothingElseOnStandardError) {
+  KeepImages(1);
+  const std::filesystem::path err = folder_.path() / "err";
+  const std::string command = std::string(LEGIBLE_PROGRAM) + " calibrate " + session().string() + " --out " +
+                              out().string() + " --format json >/dev/null 2>" + err.string();
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), kExitNoResult);
+  EXPECT_THAT(Bytes(err), testing::MatchesRegex("legible: no model: [^\n]*\n"));
+}
+
+TEST_F(Calibrate, LeavesADamagedImageOutWithAWarningAndItsReason) {
+  KeepImages(3);
+  Truncate("001.png");
+  const ProgramRun run = RunOnIt({"--format", "json", "--folds", "0", "--no-pictures"});
+  EXPECT_THAT(run.err, HasSubstr("legible: warning: " + (images() / "001.png").string() + ": left out: "));
+  EXPECT_EQ(run.out, Bytes(out() / "calibration.json"));
+  const json document = json::parse(run.out);
+  EXPECT_EQ(document.at("images_used"), 2);
+  ASSERT_EQ(document.at("images_left_out").size(), 1u);
+  EXPECT_EQ(document.at("images_left_out").at(0).at("name"), "001.png");
+  EXPECT_NE(document.at("images_left_out").at(0).at("reason"), "");
+}
+
+TEST_F(Calibrate, SaysWhichImagesHaveNoRowInJointsCsv) {
+  KeepImages(1);
+  folder_.Write("session/images/new.png", "");
+  const ProgramRun run = RunOnIt({"--no-pictures"});
+  EXPECT_THAT(run.err,
+              HasSubstr("legible: warning: 1 image of the session's folder has no row in joints.csv"));
+  EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("images_left_out").at(0).at("name"), "new.png");
+}
+
+}  // namespace
+}  // namespace legible

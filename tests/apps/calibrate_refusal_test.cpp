@@ -1,0 +1,138 @@
+// What `legible calibrate` refuses: one clear line, exit code 2, nothing written.
+#include "tests/apps/program_fixture.h"
+
+namespace legible {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr char kCameraPlace[] =
+    "camera_from_base:          # by tape measure: about 3 cm and 3 deg\n"
+    "  rotation_xyzw: [0.518849851, 0.550845912, -0.489188099, 0.433657257]\n"
+    "  translation_m: [0.021, 0.156, 0.975]\n";
+
+using CalibrateRefuses = HexapodSession;
+
+TEST_F(CalibrateRefuses, AFolderThatDoesNotExist) {
+  const std::string nowhere = (folder_.path() / "nowhere").string();
+  ExpectRefusal(RunLegible({"calibrate", nowhere, "--out", out()}),
+                StartsWith("legible: " + nowhere + ": is no folder; "));
+}
+
+TEST_F(CalibrateRefuses, ASessionWithoutRows) {
+  KeepImages(0);
+  ExpectRefusal(RunOnIt(), HasSubstr("joints.csv: no image"));
+}
+
+TEST_F(CalibrateRefuses, AnEmptyImageFolder) {
+  for (const auto& image : std::filesystem::directory_iterator(images())) std::filesystem::remove(image);
+  ExpectRefusal(RunOnIt(), HasSubstr("images: no image in this folder"));
+}
+
+TEST_F(CalibrateRefuses, ADamagedImageThatIsTheOnlyOne) {
+  KeepImages(1);
+  Truncate("000.png");
+  ExpectRefusal(RunOnIt(), StartsWith("legible: " + (images() / "000.png").string() +
+                                      ": is not an image, or damaged; "));
+}
+
+TEST_F(CalibrateRefuses, AColumnMissingInJointsCsv) {
+  Edit("joints.csv", ",q6_m\n", "\n");
+  ExpectRefusal(RunOnIt(), HasSubstr("joints.csv:1: column q6_m is missing"));
+}
+
+TEST_F(CalibrateRefuses, ANaNInJointsCsv) {
+  Edit("joints.csv", "0.42782314", "nan");
+  ExpectRefusal(RunOnIt(), HasSubstr("joints.csv:2: q2_m is \"nan\", not a finite number; "));
+}
+
+TEST_F(CalibrateRefuses, ImagesOfAnotherSizeThanTheCameras) {
+  Edit("camera.yaml", "image_width: 1280", "image_width: 640");
+  Edit("camera.yaml", "image_height: 960", "image_height: 480");
+  ExpectRefusal(RunOnIt(), AllOf(StartsWith("legible: " + (images() / "000.png").string()),
+                                 HasSubstr("1280 x 960"), HasSubstr("640 x 480"), HasSubstr("camera.yaml")));
+}
+
+TEST_F(CalibrateRefuses, AFocalLengthThatMakesNoSense) {
+  Edit("camera.yaml", "[1250, 0, 639.5, 0, 1250,", "[100, 0, 639.5, 0, 100,");
+  ExpectRefusal(RunOnIt(),
+                AllOf(HasSubstr("camera.yaml:"), HasSubstr("has fx 100 px"), HasSubstr("; give ")));
+}
+
+TEST_F(CalibrateRefuses, ACameraThatCouldBeAnywhere) {
+  Edit("camera.yaml", kCameraPlace, "");
+  Edit("session.yaml", "tags: tags.yaml\n", "");
+  ExpectRefusal(RunOnIt(), AllOf(HasSubstr("camera.yaml: does not say where the camera is"),
+                                 HasSubstr("; give camera_from_base")));
+}
+
+TEST_F(CalibrateRefuses, AnOutputFolderThatCannotBeMade) {
+  const std::string below_a_file = (session() / "robot.yaml" / "out").string();
+  ExpectRefusal(RunLegible({"calibrate", session(), "--out", below_a_file}),
+                AllOf(StartsWith("legible: " + below_a_file + ": cannot be written"), HasSubstr("--out")));
+}
+
+TEST_F(CalibrateRefuses, AnOutputFolderThatIsAFile) {
+  ExpectRefusal(RunLegible({"calibrate", session(), "--out", session() / "robot.yaml"}),
+                HasSubstr("cannot be written"));
+}
+
+TEST_F(CalibrateRefuses, BadInputWithoutTouchingEarlierResults) {
+  folder_.Write("out/model.yaml", "of an earlier run");
+  Edit("joints.csv", "0.42782314", "nan");
+  EXPECT_EQ(RunOnIt().exit_code, kExitBadInput);
+  EXPECT_EQ(Bytes(out() / "model.yaml"), "of an earlier run");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out()), {}), 1);
+}
+
+TEST_F(CalibrateRefuses, BadUsageNamingTheOptionAndTheHelp) {
+  const std::string help = "; see `legible calibrate --help`\n";
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& what) {
+    ExpectRefusal(RunOnIt(options), AllOf(HasSubstr(what), EndsWith(help)));
+  };
+  refused({"--fold", "3"}, "unknown option --fold;");
+  refused({"another-session"}, "unexpected argument another-session");
+  refused({"--format", "xml"}, "--format: \"xml\" is none of table, json");
+  refused({"--lens", "fisheye"}, "--lens: \"fisheye\" is none of pinhole, brown-conrady, rational");
+  refused({"--hold", "radii,wheels"}, "--hold: \"wheels\" is none of focal-length, ");
+  refused({"--known", "radius=0.1"}, "--known: \"radius\" is none of ");
+  refused({"--known", "radius_m=-1"}, "--known: radius_m is \"-1\"");
+  refused({"--known", "radius_m"}, "--known: \"radius_m\" has no value");
+  refused({"--folds", "1"}, "--folds: give 0, or 2 and more");
+  refused({"--folds", "few"}, "--folds");
+  refused({"--threads", "0"}, "--threads");
+}
+
+TEST_F(CalibrateRefuses, ToRunWithoutASession) {
+  ExpectRefusal(RunLegible({"calibrate"}), HasSubstr("SESSION is required; see `legible calibrate --help`"));
+}
+
+TEST(Program, RefusesToRunWithoutACommand) {
+  const ProgramRun run = RunLegible({});
+  EXPECT_EQ(run.exit_code, kExitBadInput);
+  EXPECT_EQ(run.err, "legible: A subcommand is required; see `legible --help`\n");
+}
+
+TEST(Program, PrintsItsVersion) {
+  const ProgramRun run = RunLegible({"--version"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  EXPECT_EQ(run.out, std::string("legible ") + ProgramVersion() + "\n");
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(Program, HelpListsTheCommands) { EXPECT_THAT(RunLegible({"--help"}).out, HasSubstr("\n  calibrate ")); }
+
+TEST(Program, HelpOfCalibrateTeachesFilesExitCodesAndAnExample) {
+  const ProgramRun run = RunLegible({"calibrate", "--help"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  for (const char* part :
+       {"session.yaml", "joints.csv", "model.yaml", "report.html", "Exit codes",
+        "Examples:", "legible calibrate datasets/hexapod", "--known NAME=SIGMA", "--free-legs"})
+    EXPECT_THAT(run.out, HasSubstr(part));
+}
+
+}  // namespace
+}  // namespace legible

@@ -1,0 +1,64 @@
+#include "apps/output_folder.h"
+
+#include "tests/datasets/files.h"
+
+namespace legible {
+namespace {
+
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+namespace fs = std::filesystem;
+
+void WriteText(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+class OutputFolder : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+};
+
+TEST_F(OutputFolder, IsMadeWithAllFilesAndNothingElse) {
+  const fs::path out = folder_.path() / "a" / "b";
+  WriteTogether(out, {"x", "y"}, [](const fs::path& staging) {
+    WriteText(staging / "x", "1");
+    WriteText(staging / "y", "2");
+  });
+  EXPECT_EQ(Bytes(out / "x"), "1");
+  EXPECT_EQ(Bytes(out / "y"), "2");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 2);
+}
+
+TEST_F(OutputFolder, ReplacesEarlierResultsAndKeepsOtherFiles) {
+  for (const char* name : {"x", "y", "other"}) folder_.Write(name, "old");
+  WriteTogether(folder_.path(), {"x", "y"}, [](const fs::path& staging) { WriteText(staging / "x", "new"); });
+  EXPECT_THAT(folder_.Names(), UnorderedElementsAre("x", "other"));
+  EXPECT_EQ(Bytes(folder_.path() / "x"), "new");
+}
+
+TEST_F(OutputFolder, IsAsItWasWhenWritingFails) {
+  folder_.Write("x", "old");
+  const auto fail = [](const fs::path& staging) {
+    WriteText(staging / "x", "new");
+    throw std::runtime_error("no more space");
+  };
+  EXPECT_THROW(WriteTogether(folder_.path(), {"x"}, fail), std::runtime_error);
+  EXPECT_THROW(WriteTogether(folder_.path() / "a" / "b", {"x"}, fail), std::runtime_error);
+  EXPECT_THAT(folder_.Names(), UnorderedElementsAre("x"));
+  EXPECT_EQ(Bytes(folder_.path() / "x"), "old");
+}
+
+TEST_F(OutputFolder, TrialOfWritingLeavesNothing) {
+  DemandWritable(folder_.path());
+  DemandWritable(folder_.path() / "a" / "b" / "");
+  EXPECT_THAT(folder_.Names(), IsEmpty());
+}
+
+TEST_F(OutputFolder, BelowAFileCannotBeWritten) {
+  const fs::path file = folder_.Write("file", "");
+  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file / "out"); }), testing::HasSubstr("cannot be written"));
+  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file); }), testing::HasSubstr("cannot be written"));
+  EXPECT_THAT(folder_.Names(), UnorderedElementsAre("file"));
+}
+
+}  // namespace
+}  // namespace legible
