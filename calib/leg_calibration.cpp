@@ -115,6 +115,7 @@ class Calibrator {
     problem_.shared = ParametersOf(start_.camera, start_.robot, start_.camera_from_base);
     problem_.free = FreeParameters(input, options);
     AddPriors(input, options, problem_);
+    HoldAtDrawing();
     problem_.drawn_base_joints = DrawnJoints(input.drawing, &Leg::base_joint_m);
     problem_.drawn_platform_joints = DrawnJoints(input.drawing, &Leg::platform_joint_m);
     for (size_t image = 0; image < input.images.size(); ++image) AddImage(image);
@@ -147,6 +148,12 @@ class Calibrator {
   LegCalibration Result() const;
 
  private:
+  // What is held keeps the drawing's and the guessed camera's values, wherever the iterations start.
+  void HoldAtDrawing() {
+    const SharedParameters nominal = ParametersOf(input_.camera, input_.drawing, start_.camera_from_base);
+    for (int i = 0; i < kSharedParameterCount; ++i)
+      if (!problem_.free[static_cast<size_t>(i)]) Parameter(problem_.shared, i) = Parameter(nominal, i);
+  }
   void AddImage(size_t image);
   void AddEdge(size_t image, size_t edge);
   SolveSummary SolveRound();

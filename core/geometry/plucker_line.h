@@ -5,8 +5,8 @@
 
 namespace legible {
 
-// A line with unit direction u through P: moment = P x u (m), the normal of the plane through the line and the
-// origin; |moment| is the line's distance from the origin. (Andreff et al., eq. 1, with h = |h| h-bar.)
+// A line with unit direction u through P: moment = P x u (m), the normal of the plane through the line and
+// the origin; |moment| is the line's distance from the origin. (Andreff et al., eq. 1, with h = |h| h-bar.)
 template <typename T>
 struct PluckerLine {
   Eigen::Matrix<T, 3, 1> direction;

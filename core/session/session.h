@@ -22,7 +22,7 @@ struct PriorKnowledge {
   std::optional<double> platform_joint_m;  // each coordinate, up to where the platform as a whole is
   std::optional<double> focal_length_px;
   std::optional<double> principal_point_px;
-  std::optional<double> distortion;        // each coefficient
+  std::optional<double> distortion;  // each coefficient
 };
 
 enum class TagCarrier { kBase, kPlatform };
@@ -37,8 +37,8 @@ struct Tag {
 struct TagGroup {
   std::string name;
   TagCarrier carrier = TagCarrier::kBase;
-  Rigid3 carrier_from_group;           // base_from_group or platform_from_group
-  double translation_sigma_m = 0;      // 1-sigma of that placement, each coordinate
+  Rigid3 carrier_from_group;       // base_from_group or platform_from_group
+  double translation_sigma_m = 0;  // 1-sigma of that placement, each coordinate
   double rotation_sigma_rad = 0;
   std::vector<Tag> tags;
 };
@@ -62,7 +62,8 @@ struct Session {
   std::vector<SessionImage> images;        // in the order of joints.csv
   std::optional<TagLayout> tags;
   PriorKnowledge known;
-  std::vector<std::filesystem::path> files;  // what it was read from but the images: session.yaml, robot, camera, …
+  std::vector<std::filesystem::path>
+      files;  // what it was read from but the images: session.yaml, robot, camera, …
   std::vector<std::string> unlisted_images;  // in the image folder but not in joints.csv: not used
 };
 

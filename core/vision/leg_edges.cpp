@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -15,13 +16,14 @@
 namespace legible {
 namespace {
 
-constexpr double kOutside_px = 8, kInside_px = 6;  // the fine band
+constexpr double kOutside_px = 6.5, kInside_px = 6;  // the fine band
 constexpr double kBin_px = 0.125;
 constexpr double kRoughBin_px = 0.5, kRoughStretch_px = 18;
 constexpr double kRoughTolerance_px = 0.9;  // of a stretch from the line through the others
 constexpr double kBendStep_px = 3;
-constexpr double kLeastStretchContrast = 12;  // grey levels, of the same sign as the whole edge's
-constexpr double kLeastGreyNoise = 0.5;       // quantisation alone leaves 0.3
+constexpr double kLargestStretchSigma_px = 0.15;  // beyond, something else than shading disturbs the stretch
+constexpr double kLeastStretchContrast = 12;      // grey levels, of the same sign as the whole edge's
+constexpr double kLeastGreyNoise = 0.5;           // quantisation alone leaves 0.3
 // Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
 // place by its share of the contrast.
 constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
@@ -269,8 +271,10 @@ void SampleStretch(size_t first, size_t last, Work& work) {
   Eigen::Vector2d centre = cell.centre_px;
   if ((last - first) % 2 == 0)  // an even number of cells: their middle is the end of a cell
     centre = (centre + work.band.cells[(first + last) / 2 - 1].centre_px) / 2;
-  work.result->observation.samples.push_back({centre - fit->place_px * cell.normal_px, cell.normal_px,
-                                              std::hypot(fit->sigma_px, kStretchMisfit / fit->contrast)});
+  const double sigma_px = std::hypot(fit->sigma_px, kStretchMisfit / fit->contrast);
+  if (sigma_px > kLargestStretchSigma_px) return;
+  work.result->observation.samples.push_back(
+      {centre - fit->place_px * cell.normal_px, cell.normal_px, sigma_px});
 }
 
 void Sample(const LegEdgeOptions& options, Work& work) {

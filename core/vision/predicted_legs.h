@@ -53,7 +53,7 @@ struct PredictedEdge {
 
 struct VisibilityOptions {
   double step_px = 6;                // between points
-  double margin_px = 8;              // kept free around other legs and at the image border
+  double margin_px = 9;              // kept free around other legs and at the image border
   double joint_radii = 2.2;          // what the joints at a leg's ends cover, in leg radii
   double platform_margin_m = 0.025;  // of the plate beyond the hull of the platform joints
 };

@@ -8,14 +8,15 @@
 namespace legible {
 namespace {
 
-constexpr int kRaysPerPixel = 64;
-constexpr double kNearEdge_px = 3;  // further off, a leg's brightness is as good as linear within a pixel
+constexpr int kRaysPerPixel = 233;
+constexpr double kNearEdge_px = 2;  // further off, a leg's brightness is as good as linear within a pixel
 
-// Where in the pixel a ray goes, -0.5 … 0.5: a lattice, which no straight edge is parallel to.
+// Where in the pixel a ray goes, -0.5 … 0.5: Fibonacci's lattice, which covers either side of any edge
+// evenly.
 Eigen::Vector2d PlaceInPixel(int ray) {
-  const double golden = 0.6180339887498949;
-  const double y = ray * golden;
-  return {(ray + 0.5) / kRaysPerPixel - 0.5, y - std::floor(y) - 0.5};
+  constexpr int kGenerator = 144;
+  const int column = ray * kGenerator % kRaysPerPixel;
+  return {(ray + 0.5) / kRaysPerPixel - 0.5, (column + 0.5) / kRaysPerPixel - 0.5};
 }
 
 // A cylinder prepared for sight lines x = s * sight from the camera centre.

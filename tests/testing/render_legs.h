@@ -34,7 +34,7 @@ struct CleanImage {
 };
 
 // Legs in front hide legs behind. Sight lines follow the camera's lens: each pixel near an edge is the mean
-// of 64 exact intersections of sight lines with the cylinders.
+// of 233 exact intersections of sight lines with the cylinders.
 CleanImage RenderLegs(const LegsInCamera& legs, const Camera& camera, const RenderOptions& options);
 
 // Adds normal noise to each pixel and rounds.

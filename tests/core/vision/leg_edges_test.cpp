@@ -69,7 +69,10 @@ void ExpectEdgesRight(const LegEdges& found, const Scene& scene, double mean_px)
       continue;
     }
     const SampleErrors errors = ErrorsOf(edge, legs, scene.camera);
-    EXPECT_LT(std::abs(errors.mean_px), mean_px);
+    EXPECT_LT(std::abs(errors.mean_px), mean_px)
+        << edge.observation.samples.size() << " " << edge.observation.samples[0].sigma_px << " common "
+        << edge.observation.common_sigma_px << " contrast " << edge.contrast << " len " << edge.length_px
+        << " " << edge.rms_px;
     EXPECT_GE(edge.observation.samples.size(), 3);
   }
 }
@@ -182,7 +185,7 @@ TEST(LegEdges, NormalCovarianceIsTheScatterOverTheNoise) {
   std::vector<Eigen::Matrix3d> covariances(12, Eigen::Matrix3d::Zero());
   for (int draw = 0; draw < kDraws; ++draw) {
     const LegEdges found =
-        MeasureLegEdges(WithNoise(clean, 8, generator), scene.Legs(), scene.camera, options);
+        MeasureLegEdges(WithNoise(clean, 10, generator), scene.Legs(), scene.camera, options);
     for (size_t i = 0; i < 12; ++i) {
       if (!found.edges[i].left_out.empty()) continue;
       normals[i].push_back(found.edges[i].normal);
