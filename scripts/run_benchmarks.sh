@@ -7,6 +7,10 @@ mkdir -p build/bench
 for program in build/release/tests/bench/*_bench; do
   name=$(basename "$program" _bench)
   printf '\n=== %s\n' "$name"
-  "$program" --json "build/bench/$name.json"
+  if [[ $name == core ]]; then # Google Benchmark's own options
+    "$program" --benchmark_out="build/bench/$name.json" --benchmark_out_format=json
+  else
+    "$program" --json "build/bench/$name.json"
+  fi
 done
 printf '\nAs JSON: build/bench/*.json\n'

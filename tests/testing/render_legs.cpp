@@ -8,15 +8,15 @@
 namespace legible {
 namespace {
 
-constexpr int kRaysPerPixel = 233;
-constexpr double kNearEdge_px = 2;  // further off, a leg's brightness is as good as linear within a pixel
+constexpr int kFine = 4;  // fine pixels across a pixel: blurred before the pixels are filled
+constexpr int kRays = 13,
+              kGenerator = 8;  // Fibonacci's lattice of rays in a fine pixel, even on both sides of an edge
+constexpr double kNearEdge_px = 2;  // further off, a leg's brightness is as good as constant within a pixel
 
-// Where in the pixel a ray goes, -0.5 … 0.5: Fibonacci's lattice, which covers either side of any edge
-// evenly.
-Eigen::Vector2d PlaceInPixel(int ray) {
-  constexpr int kGenerator = 144;
-  const int column = ray * kGenerator % kRaysPerPixel;
-  return {(ray + 0.5) / kRaysPerPixel - 0.5, (column + 0.5) / kRaysPerPixel - 0.5};
+// Where a ray of a fine pixel goes, in pixels from the pixel's centre.
+Eigen::Vector2d PlaceInPixel(int column, int row, int ray) {
+  const Eigen::Vector2d in_fine(ray + 0.5, ray * kGenerator % kRays + 0.5);
+  return (Eigen::Vector2d(column, row) + in_fine / kRays) / kFine - Eigen::Vector2d(0.5, 0.5);
 }
 
 // A cylinder prepared for sight lines x = s * sight from the camera centre.
@@ -68,20 +68,28 @@ class Renderer {
     for (const LegInCamera& leg : legs) cylinders_.emplace_back(leg);
   }
 
-  double Pixel(int x, int y) const {
+  // Fills the fine pixels of one pixel.
+  void FillPixel(int x, int y, cv::Mat& fine) const {
+    cv::Mat block = fine(cv::Rect(kFine * x, kFine * y, kFine, kFine));
     const auto centre = Unproject(camera_, {x, y});
-    if (!centre) return options_.background;
-    const bool near_edge = std::any_of(cylinders_.begin(), cylinders_.end(), [&](const Cylinder& cylinder) {
-      return cylinder.HasEdgeNear(*centre, kNearEdge_px / camera_.fx_px);
-    });
-    if (!near_edge) return Brightness(*centre);
+    const bool near_edge =
+        centre && std::any_of(cylinders_.begin(), cylinders_.end(), [&](const Cylinder& cylinder) {
+          return cylinder.HasEdgeNear(*centre, kNearEdge_px / camera_.fx_px);
+        });
+    if (!near_edge) {
+      block = centre ? Brightness(*centre) : options_.background;
+      return;
+    }
     const Eigen::Matrix2d d_pixel = Eigen::Vector2d(camera_.fx_px, camera_.fy_px).asDiagonal() *
                                     DistortWithJacobians(camera_.distortion, *centre).d_point_d_undistorted;
     const Eigen::Matrix2d d_undistorted = d_pixel.inverse();
-    double sum = 0;
-    for (int ray = 0; ray < kRaysPerPixel; ++ray)
-      sum += Brightness(*centre + d_undistorted * PlaceInPixel(ray));
-    return sum / kRaysPerPixel;
+    for (int row = 0; row < kFine; ++row)
+      for (int column = 0; column < kFine; ++column) {
+        double sum = 0;
+        for (int ray = 0; ray < kRays; ++ray)
+          sum += Brightness(*centre + d_undistorted * PlaceInPixel(column, row, ray));
+        block.at<float>(row, column) = static_cast<float>(sum / kRays);
+      }
   }
 
  private:
@@ -106,11 +114,14 @@ class Renderer {
 
 CleanImage RenderLegs(const LegsInCamera& legs, const Camera& camera, const RenderOptions& options) {
   const Renderer renderer(legs, camera, options);
-  CleanImage image{camera.width_px, camera.height_px, {}};
+  cv::Mat fine(kFine * camera.height_px, kFine * camera.width_px, CV_32FC1);
   for (int y = 0; y < camera.height_px; ++y)
-    for (int x = 0; x < camera.width_px; ++x) image.grey.push_back(static_cast<float>(renderer.Pixel(x, y)));
+    for (int x = 0; x < camera.width_px; ++x) renderer.FillPixel(x, y, fine);
+  cv::GaussianBlur(fine, fine, cv::Size(), kFine * options.blur_px);
+  CleanImage image{camera.width_px, camera.height_px, {}};
+  image.grey.resize(static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px));
   cv::Mat mat(image.height, image.width, CV_32FC1, image.grey.data());
-  cv::GaussianBlur(mat, mat, cv::Size(), options.blur_px);
+  cv::resize(fine, mat, mat.size(), 0, 0, cv::INTER_AREA);  // the mean of each pixel's fine pixels
   return image;
 }
 

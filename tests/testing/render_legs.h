@@ -23,7 +23,7 @@ struct RenderOptions {
   double background = 40;  // grey levels
   double leg = 200;        // grey levels, where no light is given
   std::optional<LambertLight> light;
-  double blur_px = 0.8;  // standard deviation of the Gaussian after the pixels have been filled
+  double blur_px = 0.8;  // standard deviation of the lens's Gaussian; the pixels' own extent is added
 };
 
 // Brightness before noise and rounding, row by row.
@@ -34,7 +34,7 @@ struct CleanImage {
 };
 
 // Legs in front hide legs behind. Sight lines follow the camera's lens: each pixel near an edge is the mean
-// of 233 exact intersections of sight lines with the cylinders.
+// of 208 exact intersections of sight lines with the cylinders, blurred before they are gathered into pixels.
 CleanImage RenderLegs(const LegsInCamera& legs, const Camera& camera, const RenderOptions& options);
 
 // Adds normal noise to each pixel and rounds.
