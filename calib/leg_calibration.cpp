@@ -159,8 +159,11 @@ class Calibrator {
   SolveSummary SolveRound();
   bool EvaluateResiduals();
   bool Reweight(int round);
-  const EdgeNoise& NoiseOf(const EdgeResidualSet& edge) const {
-    return noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
+  EdgeNoise NoiseOf(const EdgeResidualSet& edge) const {
+    EdgeNoise noise = noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
+    noise.shift /= std::sqrt(edge.common_weight);
+    noise.tilt /= std::sqrt(edge.common_weight);
+    return noise;
   }
   double Rms() const;
   double EdgeSigma() const;

@@ -48,7 +48,7 @@ struct LegCalibrationOptions {
   bool rigid_platform = true;  // false: each leg's direction is free in each image; nothing ties the legs
   // Shading that is the same in all images, relative to an edge's common_sigma_px: a shift and a tilt of each
   // leg's edges that no residual shows (radius and joints take them up) but the uncertainty must.
-  double lasting_shading = 0.7;
+  double lasting_shading = 1;
   HeldParameters hold;
   double default_joint_reading_sigma_m = 1e-4;  // where nothing is known of the readings' noise
   int max_iterations = 50;                      // of each least-squares solve

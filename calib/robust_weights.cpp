@@ -27,6 +27,10 @@ double WeightedVarianceOfStandardNormal() {
   return value;
 }
 
+// E[w z^2] / E[w] of that for two standard normal values: their mean square is exponential, so (1 - 1/e) over
+// (1 - 1/e + E1(1)).
+constexpr double kCommonVarianceOfStandardNormal = 0.6321206 / (0.6321206 + 0.2193839);
+
 // Weighted fit of shift + tilt * place to one edge's residuals: the two values, their noise and what is left.
 struct LineThroughResiduals {
   Eigen::Vector2d value_px;
@@ -48,15 +52,27 @@ LineThroughResiduals FitLine(const EdgeResidualSet& edge, const Eigen::Matrix2d&
   return line;
 }
 
+// Weight of an edge's shift and tilt: full while they are 1 sigma off, then such that they count as 1 sigma
+// off, and next to nothing from 6 on. Shading that is misunderstood moves whole edges.
+double CommonWeight(const EdgeResidualSet& edge, const Eigen::Vector2d& common_variance,
+                    double sample_noise) {
+  constexpr double kLeast = 1e-4;
+  const LineThroughResiduals line = FitLine(edge, Eigen::Matrix2d::Zero());
+  Eigen::Matrix2d covariance = sample_noise * sample_noise * line.information.inverse();
+  covariance.diagonal() += common_variance;
+  const double square = line.value_px.dot(covariance.inverse() * line.value_px) / 2;
+  return std::max(RobustWeight(std::sqrt(square)) / std::max(square, 1.0), kLeast);
+}
+
 // Method of moments: values of known noise variance and of a further variance known up to a common factor.
 struct VarianceFactor {
   double excess = 0, noise = 0, count = 0;
 
-  void Add(double value, double noise_variance, double expected_sigma) {
+  void Add(double value, double noise_variance, double expected_sigma, double weight) {
     const double expected = expected_sigma * expected_sigma;
-    excess += value * value / expected;
-    noise += noise_variance / expected;
-    count += 1;
+    excess += weight * value * value / expected;
+    noise += weight * noise_variance / expected;
+    count += weight;
   }
   void Add(const VarianceFactor& other, double weight) {
     excess += weight * other.excess;
@@ -67,7 +83,8 @@ struct VarianceFactor {
   // residuals.
   double Sigma(double share) const {
     constexpr double kLeastFactor = 0.04;  // a fifth of what the edges say of themselves
-    return count > 0 ? std::sqrt(std::max(excess / share - noise, kLeastFactor * count) / count) : 1;
+    const double values = excess / share / kCommonVarianceOfStandardNormal;
+    return count > 0 ? std::sqrt(std::max(values - noise, kLeastFactor * count) / count) : 1;
   }
 };
 
@@ -128,8 +145,8 @@ NoiseByEdge NoiseByLines(const std::vector<EdgeResidualSet>& edges, double param
     const LineThroughResiduals line = FitLine(edge, Eigen::Matrix2d::Zero());
     const NoiseSums& own = within[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
     const Eigen::Matrix2d covariance = WithinVariance(own) * line.information.inverse();
-    At(sums, edge).shift.Add(line.value_px[0], covariance(0, 0), edge.common_sigma_px);
-    At(sums, edge).tilt.Add(line.value_px[1], covariance(1, 1), edge.common_sigma_px);
+    At(sums, edge).shift.Add(line.value_px[0], covariance(0, 0), edge.common_sigma_px, edge.common_weight);
+    At(sums, edge).tilt.Add(line.value_px[1], covariance(1, 1), edge.common_sigma_px, edge.common_weight);
   }
   const double share = std::max(1 - parameters / std::max(lines, 1.0), 0.1);
   NoiseByEdge noise;
@@ -184,9 +201,12 @@ void UpdateWeights(std::vector<EdgeResidualSet>& edges, const NoiseByEdge& noise
     const EdgeNoise& own = noise[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
     Eigen::ArrayXd left = edge.residual_px;
     if (edge.common_sigma_px > 0 && HasLine(edge)) {
+      const Eigen::Vector2d common =
+          Eigen::Array2d(own.shift, own.tilt).square() * std::pow(edge.common_sigma_px, 2);
+      edge.common_weight = CommonWeight(edge, common, own.sample);
       // FitLine counts in units of each sample's sigma: so must what is known of shift and tilt.
-      const Eigen::Array2d relative = Eigen::Array2d(own.shift, own.tilt) * edge.common_sigma_px / own.sample;
-      const Eigen::Matrix2d prior = relative.square().inverse().matrix().asDiagonal();
+      const Eigen::Matrix2d prior =
+          (std::pow(own.sample, 2) * edge.common_weight * common.cwiseInverse()).asDiagonal();
       const Eigen::Vector2d line = FitLine(edge, prior).value_px;
       left -= line[0] + line[1] * edge.place.array();
     }

@@ -22,6 +22,7 @@ struct EdgeResidualSet {
   Eigen::VectorXd residual_px;
   Eigen::VectorXd weight;  // robust, [0, 1]
   double common_sigma_px = 0;
+  double common_weight = 1;  // robust, of the information on shift and tilt
 };
 
 // 1.4826 x median |residual / sigma_px|: a scale that half the samples being wrong does not move.

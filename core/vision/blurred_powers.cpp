@@ -40,32 +40,35 @@ class Table {
   std::vector<BlurredPower> entries_;
 };
 
-// Integral over u > 0 of u^p phi(z - u), with u = v^2 so that the root at 0 does no harm; trapezoidal, which
-// is exact to rounding for a smooth integrand that vanishes at both ends.
-double BlurredPowerByQuadrature(double p, double z) {
-  constexpr int kSteps = 600;
+// Integral over u > 0 of u^p phi(z - u), with u = v^2 so that the root at 0 does no harm (2 v^(2p+1) has a
+// whole exponent); trapezoidal, which is exact to rounding for a smooth integrand that vanishes at the far
+// end.
+double BlurredPowerByQuadrature(int twice_p, double z) {
+  constexpr int kSteps = 200;
   const double last = std::sqrt(std::max(z, 0.0) + 9);
-  double sum = 0;
+  double sum = twice_p == -1 ? Density(z) : 0;  // v = 0
   for (int i = 1; i < kSteps; ++i) {
     const double v = last * i / kSteps;
-    sum += 2 * std::pow(v, 2 * p + 1) * Density(z - v * v);
+    double power = 2;
+    for (int k = 0; k <= twice_p; ++k) power *= v;
+    sum += power * Density(z - v * v);
   }
   return sum * last / kSteps;
 }
 
-double PowerOf(HalfPower power) { return 0.5 + static_cast<double>(power); }
+int TwiceOf(HalfPower power) { return 1 + 2 * static_cast<int>(power); }
 
 const Table& HalfPowerTable(HalfPower power) {
   static const std::array<Table, 3> tables = [] {
-    const auto table = [](double p) {
-      return Table([p](double z) {
-        // d/dz = p G * x^(p-1); for p = 1/2 the integrand 2 v^0 phi is still smooth.
-        return BlurredPower{BlurredPowerByQuadrature(p, z),
-                            p * (BlurredPowerByQuadrature(p - 1, z) +
-                                 (p < 1 ? Density(z) * std::sqrt(std::max(z, 0.0) + 9) / 600 : 0))};
+    const auto table = [](HalfPower of) {
+      const int twice_p = TwiceOf(of);
+      return Table([twice_p](double z) {
+        return BlurredPower{BlurredPowerByQuadrature(twice_p, z),
+                            0.5 * twice_p * BlurredPowerByQuadrature(twice_p - 2, z)};
       });
     };
-    return std::array<Table, 3>{table(0.5), table(1.5), table(2.5)};
+    return std::array<Table, 3>{table(HalfPower::kOneHalf), table(HalfPower::kThreeHalves),
+                                table(HalfPower::kFiveHalves)};
   }();
   return tables[static_cast<size_t>(power)];
 }
@@ -82,7 +85,7 @@ const Table& StepTable() {
 BlurredPower BlurredHalfPower(HalfPower power, double z) {
   if (z <= kFrom) return {0, 0};
   if (z < kTo - 1) return HalfPowerTable(power).At(z);
-  const double p = PowerOf(power);
+  const double p = 0.5 * TwiceOf(power);
   const double second = p * (p - 1) / 2;
   return {std::pow(z, p) * (1 + second / (z * z)),
           p * std::pow(z, p - 1) + (p - 2) * second * std::pow(z, p - 3)};
@@ -95,6 +98,9 @@ BlurredPower BlurredStep(double z) {
 }
 
 BlurredPower BlurredRamp(double z) {
+  constexpr double kStraightFrom = 6;  // to 1e-10
+  if (z < -kStraightFrom) return {0, 0};
+  if (z > kStraightFrom) return {z, 1};
   const BlurredPower step = BlurredStep(z);
   return {z * step.value + step.derivative, step.value};
 }

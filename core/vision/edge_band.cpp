@@ -43,11 +43,16 @@ void CollectCell(const GrayImage& image, const Eigen::Vector2d& start, const Eig
     span.Clip(cell.normal_px.x(), cell.normal_px.y() * dy, -inside_px, outside_px);
     const int from = static_cast<int>(std::ceil(span.low + cell.centre_px.x()));
     const int to = static_cast<int>(std::floor(span.high + cell.centre_px.x()));
-    for (int x = from; x <= to; ++x) {
-      const Eigen::Vector2d from_centre(x - cell.centre_px.x(), dy);
-      pixels.push_back(
-          {static_cast<float>(-cell.normal_px.dot(from_centre)), static_cast<float>(image(x, y))});
-    }
+    if (from > to) continue;
+    const size_t first = pixels.size();
+    pixels.resize(first + static_cast<size_t>(to - from + 1));
+    const auto at_first =
+        static_cast<float>(-cell.normal_px.dot(Eigen::Vector2d(from - cell.centre_px.x(), dy)));
+    const auto step = static_cast<float>(-cell.normal_px.x());
+    const std::uint8_t* row = image.Row(y) + from;
+    for (int i = 0; i <= to - from; ++i)
+      pixels[first + static_cast<size_t>(i)] = {at_first + static_cast<float>(i) * step,
+                                                static_cast<float>(row[i])};
   }
 }
 
@@ -140,7 +145,43 @@ std::vector<Levels> Smoothed(const std::vector<BandCell>& cells, const std::vect
   return smooth;
 }
 
+constexpr double kTableFrom_px = -10, kTableTo_px = 10, kTableStep_px = 1.0 / 8;
+
+std::vector<double> TablePlaces() {
+  std::vector<double> places;
+  for (double x = kTableFrom_px; x <= kTableTo_px; x += kTableStep_px) places.push_back(x);
+  return places;
+}
+
 }  // namespace
+
+LevelShape::LevelShape() {
+  for (const double x : TablePlaces()) {
+    const auto leg = static_cast<float>(1 / (1 + std::exp(-1.7 * x)));
+    table_.push_back({1 - leg, leg});
+  }
+}
+
+LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) {
+  const std::vector<double> places = TablePlaces();
+  const std::vector<BrightnessParts> parts = PredictParts(fit, places, options);
+  // Against the mean over the distances from which levels are read.
+  Level background, leg;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const double x = places[i] - fit.place_px;
+    if (x >= kBackgroundFrom && x <= kBackgroundTo) background.Add(parts[i].background);
+    if (x >= kLegFrom && x <= kLegTo) leg.Add(parts[i].leg);
+  }
+  for (const BrightnessParts& at : parts)
+    table_.push_back(
+        {static_cast<float>(at.background / background.Mean()), static_cast<float>(at.leg / leg.Mean())});
+}
+
+LevelShape::Shares LevelShape::At(float inside_px) const {
+  const float position =
+      (inside_px - static_cast<float>(kTableFrom_px)) * static_cast<float>(1 / kTableStep_px) + 0.5f;
+  return table_[static_cast<size_t>(std::clamp(position, 0.0f, static_cast<float>(table_.size() - 1)))];
+}
 
 EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,
                      double inside_px) {
@@ -165,7 +206,7 @@ EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoin
   return band;
 }
 
-void Flatten(EdgeBand& band, double place_px) {
+void Flatten(EdgeBand& band, double place_px, const LevelShape& shape) {
   if (band.cells.empty()) return;
   std::vector<Levels> levels;
   for (const BandCell& cell : band.cells) levels.push_back(LevelsOf(band, cell, place_px));
@@ -178,12 +219,11 @@ void Flatten(EdgeBand& band, double place_px) {
   }
   const std::vector<Levels> smooth = Smoothed(band.cells, levels);
   for (size_t i = 0; i < band.cells.size(); ++i) {
-    const double background = smooth[i].background.Mean() - all.background.Mean();
-    const double leg = smooth[i].leg.Mean() - all.leg.Mean();
+    const auto background = static_cast<float>(smooth[i].background.Mean() - all.background.Mean());
+    const auto leg = static_cast<float>(smooth[i].leg.Mean() - all.leg.Mean());
     for (size_t p = band.cells[i].first; p < band.cells[i].last; ++p) {
-      // A soft step about a pixel wide from one correction to the other.
-      const double inside = 1 / (1 + std::exp(-1.7 * (band.pixels[p].inside_px - place_px)));
-      band.pixels[p].brightness -= static_cast<float>(background + inside * (leg - background));
+      const LevelShape::Shares shares = shape.At(band.pixels[p].inside_px);
+      band.pixels[p].brightness -= background * shares.background + leg * shares.leg;
     }
   }
 }
@@ -191,11 +231,12 @@ void Flatten(EdgeBand& band, double place_px) {
 EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell, double outside_px,
                        double inside_px, double width_px) {
   EdgeProfile profile(static_cast<size_t>(std::ceil((outside_px + inside_px) / width_px)));
+  const double per_px = 1 / width_px, bins = static_cast<double>(profile.size());
   for (size_t c = first_cell; c < last_cell; ++c)
     for (size_t i = band.cells[c].first; i < band.cells[c].last; ++i) {
       const BandPixel& pixel = band.pixels[i];
-      const double position = (pixel.inside_px + outside_px) / width_px;
-      if (position < 0 || position >= static_cast<double>(profile.size())) continue;
+      const double position = (pixel.inside_px + outside_px) * per_px;
+      if (position < 0 || position >= bins) continue;
       ProfileBin& bin = profile[static_cast<size_t>(position)];
       bin.inside_px += pixel.inside_px;
       bin.brightness += pixel.brightness;
@@ -207,6 +248,27 @@ EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell
     bin.brightness /= bin.count;
   }
   return profile;
+}
+
+EdgeProfile CoarserFarFromTheEdge(const EdgeProfile& profile, double fine_px) {
+  constexpr int kTogether = 4;
+  EdgeProfile coarser;
+  int in_group = kTogether;
+  for (const ProfileBin& bin : profile) {
+    if (bin.count == 0) continue;
+    if (std::abs(bin.inside_px) < fine_px || in_group == kTogether) {
+      coarser.push_back(bin);
+      in_group = std::abs(bin.inside_px) < fine_px ? kTogether : 1;
+      continue;
+    }
+    ProfileBin& group = coarser.back();
+    const double count = group.count + bin.count;
+    group.inside_px += (bin.inside_px - group.inside_px) * bin.count / count;
+    group.brightness += (bin.brightness - group.brightness) * bin.count / count;
+    group.count = count;
+    ++in_group;
+  }
+  return coarser;
 }
 
 double GreyNoise(const EdgeBand& band) {

@@ -13,18 +13,28 @@ namespace {
 constexpr int kMaxColumns = 16;
 constexpr int kMaxSteps = 12;
 constexpr double kLongestStep_px = 0.5;
-constexpr double kSteady_px = 1e-4;
+constexpr double kSteady_px = 1e-3;      // the step after it would be a tenth of that
 constexpr double kOutsideSlope = 0.3;    // grey levels per px: prior of the background's slope
-constexpr double kFirstKink_rad = 0.55;  // surface angle
+constexpr double kFirstKink_rad = 0.65;  // surface angle
 constexpr double kKinkStep_rad = 0.1;
 constexpr double kKink = 28.6;  // grey levels per rad: prior of a kink in brightness over surface angle
 // By which the squares must fall for a stretch to count as shaded in its own way.
 constexpr double kEvidenceOfChange = 25;
 constexpr double kCoefficientsOfKinks = 2.5;  // that a kinked profile counts for beyond the angular one's
-constexpr double kPixelVariance = 1.0 / 12;   // of a pixel's own extent
-constexpr double kStrictness = 2;             // times the BIC's price of a coefficient
+constexpr double kAmbientLevel = 25, kAmbientScatter = 5;  // grey levels: prior of the light from everywhere
+constexpr double kHeld = 100;                              // inverse sigma of what keeps its expected value
+constexpr double kPixelVariance = 1.0 / 12;                // of a pixel's own extent
+constexpr double kStrictness = 2;                          // times the BIC's price of a coefficient
 
 using Columns = Eigen::Matrix<double, kMaxColumns, 1>;
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
+// The coefficients, then the place.
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxColumns + 1, 1>;
+using NormalMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns + 1, kMaxColumns + 1>;
+
+// Columns of the shaded models; the flat one has only the two levels.
+constexpr Eigen::Index kOutside = 1, kLevel = 2, kAngle = 3, kAmbient = 4, kFirstKink = 5;
 
 // The model's linear part at one distance: basis functions and their slopes.
 class Basis {
@@ -33,7 +43,7 @@ class Basis {
       : model_(model),
         s_(std::sqrt(options.blur_px * options.blur_px + kPixelVariance)),
         w_(options.half_width_px) {
-    size_ = model == ShadingModel::kFlat ? 2 : 4;
+    size_ = model == ShadingModel::kFlat ? 2 : kFirstKink;
     if (model != ShadingModel::kKinked) return;
     for (double psi = kFirstKink_rad; size_ < kMaxColumns; psi += kKinkStep_rad) {
       const double x = w_ * (1 - std::cos(psi));
@@ -56,15 +66,18 @@ class Basis {
       return;
     }
     const BlurredPower ramp = BlurredRamp(z);
-    value[1] = x - s_ * ramp.value;  // x for x < 0, blurred
-    slope[1] = 1 - ramp.derivative;
-    value[2] = step.value;
-    slope[2] = -slope[0];
-    EvaluateAngle(z, value[3], slope[3]);
+    value[kOutside] = x - s_ * ramp.value;  // x for x < 0, blurred
+    slope[kOutside] = 1 - ramp.derivative;
+    // 1 - cos psi = x / w
+    value[kAmbient] = s_ / w_ * ramp.value;
+    slope[kAmbient] = ramp.derivative / w_;
+    value[kLevel] = step.value - value[kAmbient];
+    slope[kLevel] = -slope[0] - slope[kAmbient];
+    EvaluateAngle(z, value[kAngle], slope[kAngle]);
     for (size_t k = 0; k < kinks_.size(); ++k) {
       const BlurredPower kink = BlurredRamp((x - kinks_[k].place_px) / s_);
-      value[static_cast<Eigen::Index>(4 + k)] = s_ * kink.value * kinks_[k].rad_per_px;
-      slope[static_cast<Eigen::Index>(4 + k)] = kink.derivative * kinks_[k].rad_per_px;
+      value[kFirstKink + static_cast<Eigen::Index>(k)] = s_ * kink.value * kinks_[k].rad_per_px;
+      slope[kFirstKink + static_cast<Eigen::Index>(k)] = kink.derivative * kinks_[k].rad_per_px;
     }
   }
 
@@ -94,16 +107,18 @@ class Basis {
 
 // What the coefficients are expected to be.
 struct CoefficientPrior {
-  Eigen::VectorXd mean;
-  Eigen::VectorXd inverse_sigma;  // 0: free
+  Coefficients mean;
+  Coefficients inverse_sigma;  // 0: free
 };
 
 // Background slope and kinks about zero, levels and the line in psi free.
 CoefficientPrior PriorOf(const Basis& basis) {
-  CoefficientPrior prior{Eigen::VectorXd::Zero(basis.size()), Eigen::VectorXd::Zero(basis.size())};
-  if (basis.size() < 4) return prior;
-  prior.inverse_sigma[1] = 1 / kOutsideSlope;
-  prior.inverse_sigma.tail(basis.size() - 4).setConstant(1 / kKink);
+  CoefficientPrior prior{Coefficients::Zero(basis.size()), Coefficients::Zero(basis.size())};
+  if (basis.size() < kFirstKink) return prior;
+  prior.inverse_sigma[kOutside] = 1 / kOutsideSlope;
+  prior.mean[kAmbient] = kAmbientLevel;
+  prior.inverse_sigma[kAmbient] = 1 / kAmbientScatter;
+  prior.inverse_sigma.tail(basis.size() - kFirstKink).setConstant(1 / kKink);
   return prior;
 }
 
@@ -116,112 +131,160 @@ struct StretchScatter {
 constexpr StretchScatter kAlikeAlongLeg{3, 1};
 constexpr StretchScatter kChangingAlongLeg{20, 20};
 
+// A nearer stretch shows fewer kinks within the window, a farther one more.
+Coefficients Resized(const Eigen::VectorXd& coefficients, Eigen::Index size) {
+  Coefficients resized = Coefficients::Zero(size);
+  const Eigen::Index common = std::min(size, coefficients.size());
+  resized.head(common) = coefficients.head(common);
+  return resized;
+}
+
 // About the coefficients of the whole edge; levels free.
 CoefficientPrior PriorAbout(const ProfileFit& whole, const StretchScatter& scatter, const Basis& basis) {
   CoefficientPrior prior = PriorOf(basis);
-  if (basis.size() < 4) return prior;
-  const Eigen::Index common = std::min<Eigen::Index>(basis.size(), whole.coefficients.size());
-  prior.mean.head(common) = whole.coefficients.head(common);
-  prior.inverse_sigma[3] = 1 / scatter.angle;
-  prior.inverse_sigma.tail(basis.size() - 4).setConstant(1 / scatter.kink);
+  if (basis.size() < kFirstKink) return prior;
+  prior.mean = Resized(whole.coefficients, basis.size());
+  prior.inverse_sigma[kAngle] = 1 / scatter.angle;
+  prior.inverse_sigma[kAmbient] = kHeld;
+  prior.inverse_sigma.tail(basis.size() - kFirstKink).setConstant(1 / scatter.kink);
   return prior;
 }
 
-// Normal equations of the coefficients and the place together.
-struct NormalEquations {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
-  double data_squares = 0;  // of the residuals at the given coefficients
-  double prior_squares = 0;
-  int bins = 0;
+// A profile's residuals about a place and coefficients, with their derivatives, each divided by its standard
+// deviation. Places, coefficients and priors come apart: the basis functions are evaluated once a place.
+class Linearisation {
+ public:
+  Linearisation(const EdgeProfile& profile, const Basis& basis, const ProfileFitOptions& options)
+      : basis_(basis), options_(options) {
+    const auto bins = static_cast<Eigen::Index>(profile.size());
+    values_.resize(bins, basis.size());
+    slopes_.resize(bins, basis.size());
+    brightness_.resize(bins);
+    for (const ProfileBin& bin : profile)
+      if (bin.count > 0)
+        weighed_.push_back({bin.inside_px, bin.brightness, std::sqrt(bin.count) / options.grey_noise});
+  }
+
+  void MoveTo(double place_px) {
+    const int n = basis_.size();
+    bins_ = 0;
+    Columns value, slope;
+    for (const Weighed& bin : weighed_) {
+      const double x = bin.inside_px - place_px;
+      if (x < -options_.outside_px || x > options_.inside_px) continue;
+      basis_.Evaluate(x, value, slope);
+      values_.row(bins_) = bin.weight * value.head(n).transpose();
+      slopes_.row(bins_) = bin.weight * slope.head(n).transpose();
+      brightness_[bins_] = bin.weight * bin.brightness;
+      ++bins_;
+    }
+    matrix_.setZero(n + 1, n + 1);
+    const auto values = values_.topRows(bins_);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) matrix_(i, j) = values.col(i).dot(values.col(j));
+  }
+
+  int bins() const { return bins_; }
+
+  Coefficients BestCoefficients(const CoefficientPrior& prior) const {
+    const Eigen::Index n = basis_.size();
+    const Coefficients information = prior.inverse_sigma.cwiseAbs2();
+    NormalMatrix matrix = matrix_.topLeftCorner(n, n);
+    matrix.diagonal() += information;
+    const Coefficients right =
+        values_.topRows(bins_).transpose() * brightness_.head(bins_) + information.cwiseProduct(prior.mean);
+    return Eigen::LDLT<NormalMatrix>(matrix).solve(right);
+  }
+
+  // The step from the coefficients to the least squares, as the linearisation sees it, and what is left
+  // there.
+  struct Step {
+    Unknowns change;      // coefficients, place
+    double data_squares;  // of the residuals, in noise variances
+    double squares;       // and of the prior
+    double place_variance;
+  };
+
+  Step StepFrom(const Coefficients& coefficients, const CoefficientPrior& prior) const {
+    const Eigen::Index n = basis_.size();
+    const auto values = values_.topRows(bins_);
+    const Eigen::VectorXd residual = brightness_.head(bins_) - values * coefficients;
+    const Eigen::VectorXd by_place = -slopes_.topRows(bins_) * coefficients;
+    const Coefficients information = prior.inverse_sigma.cwiseAbs2();
+    const Coefficients off = coefficients - prior.mean;
+    NormalMatrix matrix = matrix_;
+    matrix.diagonal().head(n) += information;
+    for (Eigen::Index i = 0; i < n; ++i) matrix(n, i) = by_place.dot(values.col(i));
+    matrix(n, n) = by_place.squaredNorm();
+    Unknowns right(n + 1);
+    right.head(n) = values.transpose() * residual - information.cwiseProduct(off);
+    right[n] = by_place.dot(residual);
+    const Eigen::LDLT<NormalMatrix> factor(matrix);
+    Step step;
+    step.change = factor.solve(right);
+    step.data_squares = (residual - values * step.change.head(n) - by_place * step.change[n]).squaredNorm();
+    step.squares =
+        step.data_squares + prior.inverse_sigma.cwiseProduct(off + step.change.head(n)).squaredNorm();
+    step.place_variance = factor.solve(Unknowns::Unit(n + 1, n))[n];
+    return step;
+  }
+
+ private:
+  struct Weighed {
+    double inside_px, brightness, weight;
+  };
+
+  const Basis& basis_;
+  const ProfileFitOptions& options_;
+  std::vector<Weighed> weighed_;
+  Eigen::MatrixXd values_, slopes_;
+  Eigen::VectorXd brightness_;
+  int bins_ = 0;
+  NormalMatrix matrix_;  // of the coefficients: lower triangle
 };
 
-NormalEquations Accumulate(const EdgeProfile& profile, const Basis& basis, const CoefficientPrior& prior,
-                           const Eigen::VectorXd& coefficients, double place,
-                           const ProfileFitOptions& options) {
-  const int n = basis.size();
-  Eigen::Matrix<double, kMaxColumns + 1, kMaxColumns + 1> matrix =
-      Eigen::Matrix<double, kMaxColumns + 1, kMaxColumns + 1>::Zero();
-  Eigen::Matrix<double, kMaxColumns + 1, 1> right = Eigen::Matrix<double, kMaxColumns + 1, 1>::Zero();
-  NormalEquations equations;
-  const double inverse_variance = 1 / (options.grey_noise * options.grey_noise);
-  Columns value = Columns::Zero(), slope = Columns::Zero();
-  Eigen::Matrix<double, kMaxColumns + 1, 1> row;
-  for (const ProfileBin& bin : profile) {
-    const double x = bin.inside_px - place;
-    if (bin.count == 0 || x < -options.outside_px || x > options.inside_px) continue;
-    basis.Evaluate(x, value, slope);
-    row.head(n) = value.head(n);
-    row[n] = -slope.head(n).dot(coefficients);
-    const double weight = bin.count * inverse_variance;
-    const double residual = bin.brightness - value.head(n).dot(coefficients);
-    equations.data_squares += weight * residual * residual;
-    matrix.topLeftCorner(n + 1, n + 1).selfadjointView<Eigen::Lower>().rankUpdate(row.head(n + 1), weight);
-    right.head(n + 1) += weight * residual * row.head(n + 1);
-    ++equations.bins;
-  }
-  for (int i = 0; i < n; ++i) {
-    const double information = prior.inverse_sigma[i] * prior.inverse_sigma[i];
-    const double off = coefficients[i] - prior.mean[i];
-    matrix(i, i) += information;
-    right[i] -= information * off;
-    equations.prior_squares += information * off * off;
-  }
-  equations.matrix = matrix.topLeftCorner(n + 1, n + 1).selfadjointView<Eigen::Lower>();
-  equations.right = right.head(n + 1);
-  return equations;
-}
-
-// Coefficients at a fixed place.
-Eigen::VectorXd SolveCoefficients(const NormalEquations& equations) {
-  const Eigen::Index n = equations.right.size() - 1;
-  return equations.matrix.topLeftCorner(n, n).ldlt().solve(equations.right.head(n));
-}
-
-ProfileFit Summarise(const NormalEquations& equations, ShadingModel model, double place,
-                     const Eigen::VectorXd& coefficients) {
+ProfileFit Summarise(const Linearisation::Step& step, int bins, ShadingModel model, double place_px,
+                     const Coefficients& coefficients) {
+  const bool flat = model == ShadingModel::kFlat;
   ProfileFit fit;
   fit.model = model;
-  fit.place_px = place;
+  fit.place_px = place_px;
   fit.coefficients = coefficients;
-  fit.contrast =
-      model == ShadingModel::kFlat ? coefficients[1] - coefficients[0] : coefficients[2] - coefficients[0];
-  fit.squares = equations.data_squares + equations.prior_squares;
-  const double freedom = equations.bins - (model == ShadingModel::kFlat ? 3.0 : 5.0);
-  fit.chi2_per_bin = freedom > 0 ? equations.data_squares / freedom : 0;
-  const Eigen::Index last = equations.right.size() - 1;
-  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(last + 1, last);
-  const double variance = equations.matrix.ldlt().solve(unit)[last];
-  fit.sigma_px = std::sqrt(variance * std::max(fit.chi2_per_bin, 1.0));
+  fit.contrast = coefficients[flat ? 1 : kLevel] - coefficients[0];
+  fit.squares = step.squares;
+  const double freedom = bins - (flat ? 3.0 : 5.0);
+  fit.chi2_per_bin = freedom > 0 ? step.data_squares / freedom : 0;
+  fit.sigma_px = std::sqrt(step.place_variance * std::max(fit.chi2_per_bin, 1.0));
   return fit;
 }
 
-// Gauss-Newton on place and coefficients together, from a start of the place.
-std::optional<ProfileFit> Fit(const EdgeProfile& profile, ShadingModel model, const Basis& basis,
-                              const CoefficientPrior& prior, double start_px,
-                              const ProfileFitOptions& options) {
-  const auto accumulate = [&](const Eigen::VectorXd& coefficients, double place) {
-    return Accumulate(profile, basis, prior, coefficients, place, options);
-  };
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(basis.size());
-  double place = start_px;
-  NormalEquations equations = accumulate(zero, place);
-  if (equations.bins < basis.size() + 4) return std::nullopt;
-  Eigen::VectorXd coefficients = SolveCoefficients(equations);
-  for (int step = 0; step < kMaxSteps; ++step) {
-    equations = accumulate(coefficients, place);
-    const Eigen::VectorXd change = equations.matrix.ldlt().solve(equations.right);
-    if (!change.allFinite()) return std::nullopt;
-    const double wanted = change[basis.size()];
-    const double moved = std::clamp(wanted, -kLongestStep_px, kLongestStep_px);
+// Where a fit begins: at a place, with coefficients or without.
+struct FitStart {
+  double place_px;
+  std::optional<Coefficients> coefficients;
+};
+
+// Gauss-Newton on place and coefficients together; leaves `at` at the last place but one step.
+std::optional<ProfileFit> Fit(Linearisation& at, ShadingModel model, const CoefficientPrior& prior,
+                              const FitStart& start, const ProfileFitOptions& options) {
+  const Eigen::Index n = prior.mean.size();
+  double place = start.place_px;
+  std::optional<Coefficients> coefficients = start.coefficients;
+  for (int round = 0; round < kMaxSteps; ++round) {
+    at.MoveTo(place);
+    if (at.bins() < n + 4) return std::nullopt;
+    if (!coefficients) coefficients = at.BestCoefficients(prior);
+    const Linearisation::Step step = at.StepFrom(*coefficients, prior);
+    if (!step.change.allFinite()) return std::nullopt;
+    const double moved = std::clamp(step.change[n], -kLongestStep_px, kLongestStep_px);
     place += moved;
-    if (std::abs(place - start_px) > options.inside_px / 2) return std::nullopt;
-    if (moved == wanted)
-      coefficients += change.head(basis.size());
-    else
-      coefficients = SolveCoefficients(accumulate(zero, place));
-    if (std::abs(moved) < kSteady_px)
-      return Summarise(accumulate(coefficients, place), model, place, coefficients);
+    if (std::abs(place - start.place_px) > options.inside_px / 2) return std::nullopt;
+    if (moved != step.change[n]) {
+      coefficients.reset();
+      continue;
+    }
+    *coefficients += step.change.head(n);
+    if (std::abs(moved) < kSteady_px) return Summarise(step, at.bins(), model, place, *coefficients);
   }
   return std::nullopt;
 }
@@ -243,20 +306,34 @@ double PriceOf(ShadingModel model) {
 std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel model, double start_px,
                                      const ProfileFitOptions& options) {
   const Basis basis(model, options);
-  return Fit(profile, model, basis, PriorOf(basis), start_px, options);
+  Linearisation at(profile, basis, options);
+  return Fit(at, model, PriorOf(basis), {start_px, std::nullopt}, options);
 }
 
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options) {
   const Basis basis(whole.model, options);
-  const auto fit = [&](const StretchScatter& scatter) {
-    return Fit(profile, whole.model, basis, PriorAbout(whole, scatter, basis), whole.place_px, options);
+  Linearisation at(profile, basis, options);
+  const auto fit = [&](const StretchScatter& scatter, const ProfileFit& start) {
+    const CoefficientPrior prior = PriorAbout(whole, scatter, basis);
+    return Fit(at, whole.model, prior, {start.place_px, Resized(start.coefficients, basis.size())}, options);
   };
-  const auto alike = fit(kAlikeAlongLeg);
-  const auto changing = fit(kChangingAlongLeg);
-  if (!alike || !changing) return alike ? alike : changing;
-  const double evidence = (alike->squares - changing->squares) / std::max(changing->chi2_per_bin, 1.0);
-  return evidence > kEvidenceOfChange ? changing : alike;
+  const auto alike = fit(kAlikeAlongLeg, whole);
+  if (!alike) return fit(kChangingAlongLeg, whole);
+  if (whole.model == ShadingModel::kFlat) return alike;
+  const Linearisation::Step changed =
+      at.StepFrom(alike->coefficients, PriorAbout(whole, kChangingAlongLeg, basis));
+  const double misfit = std::max(changed.data_squares / std::max(at.bins() - 5, 1), 1.0);
+  if ((alike->squares - changed.squares) / misfit <= kEvidenceOfChange) return alike;
+  const auto changing = fit(kChangingAlongLeg, *alike);
+  return changing ? changing : alike;
+}
+
+double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const ProfileFitOptions& options) {
+  const Basis basis(fit.model, options);
+  Linearisation at(profile, basis, options);
+  at.MoveTo(fit.place_px);
+  return at.StepFrom(Resized(fit.coefficients, basis.size()), PriorOf(basis)).squares;
 }
 
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
@@ -264,19 +341,21 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
   const auto flat = FitProfile(profile, ShadingModel::kFlat, start_px, options);
   const double start = flat ? flat->place_px : start_px;
   const auto angular = FitProfile(profile, ShadingModel::kAngular, start, options);
-  const auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
-  const double misfit = std::max(kinked ? kinked->chi2_per_bin : 1.0, 1.0);
   const double price = kStrictness * std::log(static_cast<double>(std::max<size_t>(profile.size(), 2)));
-  const std::optional<ProfileFit>* best = nullptr;
-  double best_score = 0;
-  for (const std::optional<ProfileFit>* fit : {&flat, &angular, &kinked}) {
-    if (!*fit) continue;
-    const double score = (*fit)->squares / misfit + price * PriceOf((*fit)->model);
-    if (best != nullptr && score >= best_score) continue;
-    best = fit;
-    best_score = score;
-  }
-  return best != nullptr ? *best : std::nullopt;
+  const auto simpler = [&](double misfit) {
+    const auto score = [&](const std::optional<ProfileFit>& fit) {
+      return fit ? fit->squares / misfit + price * PriceOf(fit->model) : HUGE_VAL;
+    };
+    return score(flat) <= score(angular) ? std::pair(flat, score(flat)) : std::pair(angular, score(angular));
+  };
+  const auto [plain, of_plain] = simpler(1);
+  // Where noise alone leaves as much, kinks have nothing to explain.
+  if (plain && plain->squares < static_cast<double>(profile.size())) return plain;
+  const auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
+  if (!kinked) return plain;
+  const double misfit = std::max(kinked->chi2_per_bin, 1.0);
+  const auto [best, of_best] = simpler(misfit);
+  return kinked->squares / misfit + price * PriceOf(kinked->model) < of_best ? kinked : best;
 }
 
 PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const ProfileFitOptions& options) {
@@ -285,6 +364,21 @@ PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const Profi
   basis.Evaluate(inside_px - fit.place_px, value, slope);
   const Eigen::Index n = basis.size();
   return {value.head(n).dot(fit.coefficients), slope.head(n).dot(fit.coefficients)};
+}
+
+std::vector<BrightnessParts> PredictParts(const ProfileFit& fit, const std::vector<double>& inside_px,
+                                          const ProfileFitOptions& options) {
+  const Basis basis(fit.model, options);
+  const Eigen::Index outer = fit.model == ShadingModel::kFlat ? 1 : kLevel, inner = basis.size() - outer;
+  std::vector<BrightnessParts> parts;
+  parts.reserve(inside_px.size());
+  Columns value = Columns::Zero(), slope = Columns::Zero();
+  for (const double x : inside_px) {
+    basis.Evaluate(x - fit.place_px, value, slope);
+    parts.push_back({value.head(outer).dot(fit.coefficients.head(outer)),
+                     value.segment(outer, inner).dot(fit.coefficients.tail(inner))});
+  }
+  return parts;
 }
 
 }  // namespace legible

@@ -59,6 +59,10 @@ std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel mo
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options);
 
+// What the squares of a fit would be at the blur of `options`, its place and coefficients moved there by one
+// linear step.
+double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const ProfileFitOptions& options);
+
 // The simplest model that explains the profile: flat first (which finds the place from afar), then the others
 // from there; a richer model must lower the squares (relative to the richest's misfit) by more than the
 // Bayesian information criterion asks for its coefficients.
@@ -72,5 +76,13 @@ struct PredictedBrightness {
   double d_outward;
 };
 PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const ProfileFitOptions& options);
+
+// What of that is the background's and what the leg's.
+struct BrightnessParts {
+  double background;
+  double leg;
+};
+std::vector<BrightnessParts> PredictParts(const ProfileFit& fit, const std::vector<double>& inside_px,
+                                          const ProfileFitOptions& options);
 
 }  // namespace legible

@@ -13,8 +13,9 @@ struct GrayImage {
   int height = 0;
   std::vector<std::uint8_t> pixels;  // row by row
 
-  std::uint8_t operator()(int x, int y) const {
-    return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  std::uint8_t operator()(int x, int y) const { return Row(y)[x]; }
+  const std::uint8_t* Row(int y) const {
+    return pixels.data() + static_cast<size_t>(y) * static_cast<size_t>(width);
   }
 };
 

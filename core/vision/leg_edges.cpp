@@ -17,11 +17,12 @@ namespace legible {
 namespace {
 
 constexpr double kOutside_px = 6.5, kInside_px = 6;  // the fine band
-constexpr double kBin_px = 0.125;
+constexpr double kBin_px = 0.125, kFineBins_px = 2.5;
 constexpr double kRoughBin_px = 0.5, kRoughStretch_px = 18;
 constexpr double kRoughTolerance_px = 0.9;  // of a stretch from the line through the others
 constexpr double kBendStep_px = 3;
 constexpr double kLargestStretchSigma_px = 0.15;  // beyond, something else than shading disturbs the stretch
+constexpr double kLargestRelativeSigma = 3;       // of a stretch, against the median stretch's
 constexpr double kLeastStretchContrast = 12;      // grey levels, of the same sign as the whole edge's
 constexpr double kLeastGreyNoise = 0.5;           // quantisation alone leaves 0.3
 // Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
@@ -95,17 +96,18 @@ std::string MainObstacle(const PredictedEdge& edge) {
   return most == reasons.end() ? "too short in the image" : most->first;
 }
 
-// Groups of neighbouring cells about `length_px` long: [first, last).
+// Groups of neighbouring cells, [first, last): each run of cells that follow each other in equal parts of
+// about `length_px`.
 std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px) {
-  const size_t most = std::max<size_t>(1, static_cast<size_t>(std::lround(length_px / step_px)));
+  const double cells = std::max(1.0, length_px / step_px);
   std::vector<std::pair<size_t, size_t>> stretches;
-  for (size_t i = 0; i < band.cells.size(); ++i) {
-    const bool extends = !stretches.empty() && band.cells[i].follows_previous && i > 0 &&
-                         i - stretches.back().first < most && stretches.back().second == i;
-    if (extends)
-      ++stretches.back().second;
-    else
-      stretches.emplace_back(i, i + 1);
+  for (size_t first = 0, last = 0; first < band.cells.size(); first = last) {
+    last = first + 1;
+    while (last < band.cells.size() && band.cells[last].follows_previous) ++last;
+    const auto run = static_cast<double>(last - first);
+    const auto parts = static_cast<size_t>(std::max(1.0, std::round(run / cells)));
+    for (size_t i = 0; i < parts; ++i)
+      stretches.emplace_back(first + i * (last - first) / parts, first + (i + 1) * (last - first) / parts);
   }
   return stretches;
 }
@@ -204,11 +206,16 @@ void TraceRoughly(const GrayImage& image, const Camera& camera, const LegEdgeOpt
 
 // ---- The fine stage: one profile of the whole edge, one blur of the whole image.
 
-void CollectProfile(const GrayImage& image, double place_px, Work& work) {
+EdgeProfile ProfileOf(const EdgeBand& band, size_t first_cell, size_t last_cell) {
+  return CoarserFarFromTheEdge(
+      BinProfile(band, first_cell, last_cell, kOutside_px + 1, kInside_px + 1, kBin_px), kFineBins_px);
+}
+
+void CollectProfile(const GrayImage& image, double place_px, const LevelShape& shape, Work& work) {
   // A little wider than the window of the fit, whose centre moves with the place.
   work.band = CollectBand(image, work.predicted.points, kOutside_px + 1, kInside_px + 1);
-  Flatten(work.band, place_px);
-  work.profile = BinProfile(work.band, 0, work.band.cells.size(), kOutside_px + 1, kInside_px + 1, kBin_px);
+  Flatten(work.band, place_px, shape);
+  work.profile = ProfileOf(work.band, 0, work.band.cells.size());
 }
 
 void FitAt(double blur_px, Work& work) {
@@ -222,36 +229,24 @@ class BlurSearch {
  public:
   explicit BlurSearch(const std::vector<Work>& works) : works_(works) {}
 
-  double Find(double start) const {
-    double blur = start;
-    for (const double step : {0.15, 0.1, 0.06, 0.06}) blur = std::clamp(Improve(blur, step), 0.3, 4.0);
-    return blur;
+  double Improve(double blur, double step) const {
+    const double low = SquaresAt(blur - step), mid = SquaresAt(blur), high = SquaresAt(blur + step);
+    const double curvature = low - 2 * mid + high;
+    const double steps = curvature <= 0 ? (low < high ? -1 : 1) : 0.5 * (low - high) / curvature;
+    return std::clamp(blur + step * std::clamp(steps, -1.5, 1.5), 0.3, 4.0);
   }
 
  private:
-  double Improve(double blur, double step) const {
-    double low = 0, mid = 0, high = 0;
+  // Of all edges, each in proportion to how well its model fits it.
+  double SquaresAt(double blur) const {
+    double sum = 0;
     for (const Work& work : works_) {
       if (work.Dropped() || !work.fit) continue;
-      const auto at_mid = FitAtBlur(work, blur, work.fit->place_px);
-      if (!at_mid) continue;
-      const auto at_low = FitAtBlur(work, blur - step, at_mid->place_px);
-      const auto at_high = FitAtBlur(work, blur + step, at_mid->place_px);
-      if (!at_low || !at_high) continue;
-      const double scale = 1 / std::max(at_mid->chi2_per_bin, 1.0);
-      low += scale * at_low->squares;
-      mid += scale * at_mid->squares;
-      high += scale * at_high->squares;
+      ProfileFitOptions options = work.fit_options;
+      options.blur_px = std::max(blur, 0.1);
+      sum += SquaresAtBlur(work.profile, *work.fit, options) / std::max(work.fit->chi2_per_bin, 1.0);
     }
-    const double curvature = low - 2 * mid + high;
-    if (curvature <= 0) return low < high ? blur - step : blur + step;
-    return blur + std::clamp(0.5 * (low - high) / curvature, -1.5, 1.5) * step;
-  }
-
-  static std::optional<ProfileFit> FitAtBlur(const Work& work, double blur, double start_px) {
-    ProfileFitOptions options = work.fit_options;
-    options.blur_px = std::max(blur, 0.1);
-    return FitProfile(work.profile, work.fit->model, start_px, options);
+    return sum;
   }
 
   const std::vector<Work>& works_;
@@ -262,7 +257,7 @@ class BlurSearch {
 // One stretch's place, with coefficients of its own: shading changes along a leg.
 void SampleStretch(size_t first, size_t last, Work& work) {
   const BandCell& cell = work.band.cells[(first + last) / 2];
-  const EdgeProfile profile = BinProfile(work.band, first, last, kOutside_px + 1, kInside_px + 1, kBin_px);
+  const EdgeProfile profile = ProfileOf(work.band, first, last);
   ProfileFitOptions options = work.fit_options;
   options.half_width_px *= work.leg->AxisPoint(0.5).z() / work.leg->AxisPoint(cell.share).z();
   const auto fit = FitStretch(profile, *work.fit, options);
@@ -277,10 +272,22 @@ void SampleStretch(size_t first, size_t last, Work& work) {
       {centre - fit->place_px * cell.normal_px, cell.normal_px, sigma_px});
 }
 
-void Sample(const LegEdgeOptions& options, Work& work) {
+// A stretch far less certain than the others is disturbed by something that no model here knows.
+void DropDisturbedSamples(std::vector<EdgeSample>& samples) {
+  if (samples.empty()) return;
+  std::vector<double> sigmas;
+  for (const EdgeSample& sample : samples) sigmas.push_back(sample.sigma_px);
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  const double largest = kLargestRelativeSigma * *middle;
+  std::erase_if(samples, [&](const EdgeSample& sample) { return sample.sigma_px > largest; });
+}
+
+void Sample(const LegEdgeOptions& options, double length_px, Work& work) {
   work.result->observation = {work.result->leg, work.result->edge, {}, 0};
-  for (const auto& [first, last] : Stretches(work.band, options.sample_length_px, options.visibility.step_px))
+  for (const auto& [first, last] : Stretches(work.band, length_px, options.visibility.step_px))
     SampleStretch(first, last, work);
+  DropDisturbedSamples(work.result->observation.samples);
   work.result->observation.common_sigma_px = std::hypot(work.fit->sigma_px, kEdgeMisfit / work.fit->contrast);
   work.result->contrast = work.fit->contrast;
   work.result->length_px = work.band.length_px;
@@ -377,12 +384,12 @@ class Measurement {
       if (!work.Dropped()) TraceRoughly(image_, camera_, options_, work);
     if (options_.rough_only) return std::move(result_);
     for (Work& work : works_)
-      if (!work.Dropped()) CollectProfile(image_, 0, work);
+      if (!work.Dropped()) CollectProfile(image_, 0, LevelShape(), work);
     result_.grey_noise = CommonGreyNoise();
     const double first_blur = options_.blur_px.value_or(kFirstBlur_px);
     for (Work& work : works_) FitFirst(first_blur, work);
     for (Work& work : works_) Recentre(work);
-    result_.blur_px = options_.blur_px.value_or(AnyLeft() ? BlurSearch(works_).Find(first_blur) : 0);
+    result_.blur_px = options_.blur_px ? *options_.blur_px : FindBlur();
     for (Work& work : works_)
       if (!work.Dropped()) Finish(work);
     return std::move(result_);
@@ -430,6 +437,28 @@ class Measurement {
     if (!work.fit) work.result->left_out = kNoEdge;
   }
 
+  // In turn with the edges' models, for at a wrong blur a plain edge looks shaded; as if all were plain to
+  // begin with, for a shaded edge's model would follow a wrong blur.
+  double FindBlur() {
+    if (!AnyLeft()) return 0;
+    double blur = kFirstBlur_px;
+    const auto improve = [&](double step_px, auto refit) {
+      blur = BlurSearch(works_).Improve(blur, step_px);
+      for (Work& work : works_)
+        if (!work.Dropped() && work.fit) refit(work);
+    };
+    const auto as_plain = [&](Work& work) {
+      work.fit_options.blur_px = blur;
+      if (const auto plain = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options))
+        work.fit = plain;
+    };
+    const auto by_its_model = [&](Work& work) { FitAt(blur, work); };
+    improve(0.15, as_plain);
+    improve(0.1, by_its_model);
+    improve(0.08, by_its_model);
+    return blur;
+  }
+
   bool AnyLeft() const {
     return std::any_of(works_.begin(), works_.end(), [](const Work& work) { return !work.Dropped(); });
   }
@@ -437,21 +466,22 @@ class Measurement {
   // A band that lies askew to its edge would look blurred: lays it along the line through the first samples.
   void Recentre(Work& work) const {
     if (work.Dropped()) return;
-    Sample(options_, work);
+    Sample(options_, 2 * options_.sample_length_px, work);
     FitLine(camera_, work);
     MoveTo(camera_, work.result->normal, work);
-    CollectProfile(image_, 0, work);
-    FitAt(work.fit_options.blur_px, work);
+    // The samples moved the curve onto the edge.
+    work.fit->place_px = 0;
+    CollectProfile(image_, 0, LevelShape(*work.fit, work.fit_options), work);
+    work.fit = FitProfile(work.profile, work.fit->model, 0, work.fit_options);
     if (!work.fit) work.result->left_out = kNoEdge;
   }
 
   void Finish(Work& work) const {
-    FitAt(result_.blur_px, work);
     if (!work.fit) {
       work.result->left_out = kNoEdge;
       return;
     }
-    Sample(options_, work);
+    Sample(options_, options_.sample_length_px, work);
     FitLine(camera_, work);
     Judge(options_, work);
   }

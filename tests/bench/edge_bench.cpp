@@ -74,7 +74,7 @@ Prediction Predict(const Edge& edge, std::mt19937_64& generator) {
 // middle.
 double OffsetByBand(const GrayImage& image, const Prediction& prediction) {
   EdgeBand band = CollectBand(image, prediction.points, kOutside_px + 1, kInside_px + 1);
-  Flatten(band, 0);
+  Flatten(band, 0, LevelShape());
   const EdgeProfile profile =
       BinProfile(band, 0, band.cells.size(), kOutside_px + 1, kInside_px + 1, kBin_px);
   ProfileFitOptions options;

@@ -124,5 +124,19 @@ TEST(UpdateWeights, DoesNotBlameSamplesForWhatIsCommonAlongTheirEdge) {
   EXPECT_GT(weight, 0.99);
 }
 
+TEST(UpdateWeights, DoesNotTrustAnEdgeThatLiesFarOffAsAWhole) {
+  std::mt19937_64 generator = TestGenerator();
+  const NoiseModel model{.sample = 1.2, .shift_px = 0.4, .tilt_px = 0.4, .common_sigma_px = 0.4};
+  auto edges = DrawResiduals(generator, 1000, 8, model);
+  for (size_t i = 0; i < edges.size(); i += 20) edges[i].residual_px.array() += 5;
+  const EdgeNoise noise = EstimateIteratively(edges);
+  EXPECT_NEAR(noise.shift, 1, 0.15);
+  for (size_t i = 0; i < edges.size(); ++i)
+    if (i % 20 == 0) {
+      EXPECT_LT(edges[i].common_weight, 0.01) << i;
+      EXPECT_GT(edges[i].weight.mean(), 0.9) << i;  // its samples agree with each other
+    }
+}
+
 }  // namespace
 }  // namespace legible

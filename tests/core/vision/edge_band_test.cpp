@@ -125,7 +125,7 @@ TEST(Flatten, TakesOutALinearRampAlongTheEdge) {
   const GrayImage image = Paint(
       edge, [](double along, double inside) { return inside > 0 ? 140 + 0.4 * along : 30 + 0.2 * along; });
   EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  Flatten(band, 0);
+  Flatten(band, 0, LevelShape());
   ASSERT_EQ(band.cells.size(), 20);
   // The first and the last cell are averaged with one neighbour only: a third of a cell's rise remains.
   for (size_t i = 1; i + 1 < band.cells.size(); ++i) {
@@ -141,7 +141,7 @@ TEST(Flatten, DropsCellsThatSomethingCovers) {
     return along > 42 && along < 60 ? 100.0 : inside > 0 ? 160.0 : 40.0;
   });
   EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  Flatten(band, 0);
+  Flatten(band, 0, LevelShape());
   // Three cells are covered; those beside them may go too, for the jump to a neighbour is not texture.
   EXPECT_GE(band.cells.size(), 15);
   EXPECT_LE(band.cells.size(), 17);
@@ -161,6 +161,38 @@ TEST(BinProfile, HoldsEveryPixelOfItsCells) {
     }
   }
   EXPECT_EQ(count, static_cast<double>(band.pixels.size()));
+}
+
+TEST(CoarserFarFromTheEdge, KeepsPixelsAndMeansAndTheBinsNearTheEdge) {
+  EdgeProfile profile;
+  for (int i = 0; i < 64; ++i) profile.push_back({-4 + (i + 0.5) / 8, 10.0 * i, 1.0 + i % 3});
+  const EdgeProfile coarser = CoarserFarFromTheEdge(profile, 2);
+  EXPECT_LT(coarser.size(), profile.size() * 3 / 4);
+  const auto moments = [](const EdgeProfile& bins) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const ProfileBin& bin : bins) sum += bin.count * Eigen::Vector3d(1, bin.inside_px, bin.brightness);
+    return sum;
+  };
+  EXPECT_LT((moments(coarser) - moments(profile)).norm(), 1e-9 * moments(profile).norm());
+  const auto near = [](const EdgeProfile& bins) {
+    return std::count_if(bins.begin(), bins.end(),
+                         [](const ProfileBin& b) { return std::abs(b.inside_px) < 2; });
+  };
+  EXPECT_EQ(near(coarser), near(profile));
+}
+
+// A leg whose light fades along it: what is brightest across it changes most.
+TEST(LevelShape, FollowsTheBrightnessAcrossTheEdge) {
+  ProfileFit fit;
+  fit.model = ShadingModel::kFlat;
+  fit.coefficients = Eigen::Vector2d(40, 160);
+  ProfileFitOptions options;
+  const LevelShape shape(fit, options);
+  for (const float x : {-4.0f, -0.3f, 0.0f, 0.4f, 3.0f}) {
+    const double leg = std::erfc(-x / std::sqrt(2 * (options.blur_px * options.blur_px + 1.0 / 12))) / 2;
+    EXPECT_NEAR(shape.At(x).leg, leg, 0.03) << x;  // half a step of the table
+    EXPECT_NEAR(shape.At(x).background, 1 - leg, 0.03) << x;
+  }
 }
 
 TEST(GreyNoise, IsTheScatterOfTheBackground) {

@@ -117,7 +117,7 @@ TEST_P(LegEdgesThroughLens, ShadingMovesTheEdgesOfMattLegsByLessThanATenth) {
   const Scene scene(GetParam());
   RenderOptions options;
   options.background = 10;
-  options.light = LambertLight{90, 120, Eigen::Vector3d(-0.5, -0.5, -0.7).normalized()};
+  options.light = LambertLight{40, 170, Eigen::Vector3d(-0.5, -0.5, -0.7).normalized()};
   const GrayImage image = WithNoise(RenderLegs(scene.Legs(), scene.camera, options), kNoise, generator);
   const LegEdges found = MeasureLegEdges(image, scene.Legs(), scene.camera, WithoutLock());
   EXPECT_GE(MeasuredCount(found), 7);
