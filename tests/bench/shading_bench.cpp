@@ -1,62 +1,15 @@
 // What shading leaves of the edges' places on the shipped ray-traced session, against what the renderer knew.
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/geometry/edge_distance.h"
 #include "core/vision/leg_edges.h"
 #include "tests/bench/bench_table.h"
+#include "tests/testing/rendered_truth.h"
 
 namespace legible {
 namespace {
-
-using Json = nlohmann::json;
-
-Eigen::Vector3d VectorOf(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-Rigid3 RigidOf(const Json& json) {
-  Eigen::Matrix3d rotation;
-  for (int row = 0; row < 3; ++row) rotation.row(row) = VectorOf(json.at("R").at(static_cast<size_t>(row)));
-  return {Eigen::Quaterniond(rotation).normalized(), VectorOf(json.at("t"))};
-}
-
-// What truth.json says.
-struct Truth {
-  Camera camera;
-  Rigid3 camera_from_base;
-  GoughStewart robot;
-  std::vector<std::pair<std::string, Rigid3>> images;  // name, base_from_platform
-};
-
-Truth ReadTruth(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + " cannot be read");
-  const Json json = Json::parse(stream);
-  Truth truth;
-  const Json &camera = json.at("camera"), &lens = camera.at("distortion");
-  truth.camera.width_px = camera.at("width");
-  truth.camera.height_px = camera.at("height");
-  truth.camera.fx_px = camera.at("fx");
-  truth.camera.fy_px = camera.at("fy");
-  truth.camera.cx_px = camera.at("cx");
-  truth.camera.cy_px = camera.at("cy");
-  truth.camera.distortion.head<5>() << lens.at("k1").get<double>(), lens.at("k2").get<double>(),
-      lens.at("p1").get<double>(), lens.at("p2").get<double>(), lens.at("k3").get<double>();
-  truth.camera_from_base = RigidOf(json.at("camera_from_base"));
-  for (size_t i = 0; i < kLegCount; ++i) {
-    const Json& leg = json.at("legs").at(i);
-    truth.robot.legs[i].base_joint_m = VectorOf(leg.at("A_base"));
-    truth.robot.legs[i].platform_joint_m = VectorOf(leg.at("B_platform"));
-    truth.robot.legs[i].radius_m = leg.at("radius");
-  }
-  for (const Json& image : json.at("images"))
-    truth.images.emplace_back(image.at("name"), RigidOf(image.at("base_from_platform")));
-  return truth;
-}
 
 // Mean distance of an edge's samples from the true outline, px outward.
 double MeanOffset(const LegEdge& edge, const LegsInCamera& legs, const Camera& camera) {
@@ -92,7 +45,7 @@ struct Offsets {
 };
 
 std::vector<BenchTable> MeasureSession(const std::string& folder) {
-  const Truth truth = ReadTruth(folder + "/truth.json");
+  const RenderedTruth truth = ReadRenderedTruth(folder + "/truth.json");
   std::array<Offsets, 12> by_edge;
   Offsets pooled;
   double time_s = 0;
