@@ -21,7 +21,7 @@ json CorrelationsJson(const LegCalibration& calibration) {
   const ModelCovariance model = CovarianceOfModel(calibration);
   std::vector<Eigen::Index> shown;
   for (Eigen::Index i = 0; i < model.covariance.rows(); ++i)
-    if (model.known[static_cast<size_t>(i)] && model.covariance(i, i) > 0) shown.push_back(i);
+    if (model.WasEstimated(i)) shown.push_back(i);
   json names = json::array(), matrix = json::array();
   for (const Eigen::Index i : shown) {
     names.push_back(model.names[static_cast<size_t>(i)]);

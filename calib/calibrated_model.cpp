@@ -9,7 +9,8 @@ namespace legible {
 namespace {
 
 constexpr int kModelLegParameters = 8;  // A (3), B (3), R, joint offset
-constexpr int kModelParameters = kCameraParameterCount + kLegCount * kModelLegParameters;
+constexpr int kPlacement = kCameraParameterCount + kLegCount * kModelLegParameters;  // of the base: 6
+constexpr int kModelParameters = kPlacement + 6;
 
 std::vector<std::string> ModelNames() {
   std::vector<std::string> names;
@@ -18,6 +19,9 @@ std::vector<std::string> ModelNames() {
     for (const char* name : {"base_joint_m.x", "base_joint_m.y", "base_joint_m.z", "platform_joint_m.x",
                              "platform_joint_m.y", "platform_joint_m.z", "radius_m", "joint_offset_m"})
       names.push_back(fmt::format("legs[{}].{}", leg, name));
+  for (const char* name : {"translation_m.x", "translation_m.y", "translation_m.z", "rotation_rad.x",
+                           "rotation_rad.y", "rotation_rad.z"})
+    names.push_back(fmt::format("camera_from_base.{}", name));
   return names;
 }
 
@@ -25,12 +29,13 @@ std::vector<std::string> ModelNames() {
 Eigen::MatrixXd FromSharedParameters(const LegCalibration& calibration) {
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kModelParameters, kSharedParameterCount);
   map.topLeftCorner<kCameraParameterCount, kCameraParameterCount>().setIdentity();
-  const Eigen::Matrix<double, 18, kSharedParameterCount> base = BaseJointsFromShared(calibration);
+  const BaseFromShared base = DifferentiateBase(calibration);
   for (int leg = 0; leg < kLegCount; ++leg) {
     const int row = kCameraParameterCount + leg * kModelLegParameters;
-    map.middleRows<3>(row) = base.middleRows<3>(3 * leg);
+    map.middleRows<3>(row) = base.joints.middleRows<3>(3 * leg);
     map.block<5, 5>(row + 3, FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint).setIdentity();
   }
+  map.bottomRows<6>() = base.placement;
   return map;
 }
 
@@ -55,13 +60,16 @@ ModelCovariance CovarianceOfModel(const LegCalibration& calibration) {
 }
 
 CalibratedModel ToModel(const LegCalibration& calibration) {
-  ModelCovariance covariance = CovarianceOfModel(calibration);
+  const ModelCovariance all = CovarianceOfModel(calibration);
   CalibratedModel model;
   model.robot = calibration.robot;
   model.camera = calibration.camera;
   model.camera_from_base = calibration.camera_from_base;
-  model.parameter_names = std::move(covariance.names);
-  model.covariance = std::move(covariance.covariance);
+  std::vector<Eigen::Index> estimated;
+  for (Eigen::Index i = 0; i < kModelParameters; ++i)
+    if (all.WasEstimated(i)) estimated.push_back(i);
+  for (const Eigen::Index i : estimated) model.parameter_names.push_back(all.names[static_cast<size_t>(i)]);
+  model.covariance = all.covariance(estimated, estimated);
   return model;
 }
 

@@ -9,15 +9,19 @@
 namespace legible {
 
 // Covariance of the parameters that a model is used with: the camera's, then for each leg A in base, B in
-// platform, R and joint offset, in the gauges of LegCalibration; parameters that were held have zero rows.
+// platform, R and joint offset, in the gauges of LegCalibration, then the placement of the base
+// (BaseFromShared); parameters that were held have zero rows.
 struct ModelCovariance {
   std::vector<std::string> names;
   Eigen::MatrixXd covariance;
   std::vector<bool> known;  // false: no number may be given for the parameter
+
+  bool WasEstimated(Eigen::Index i) const { return known[static_cast<size_t>(i)] && covariance(i, i) > 0; }
 };
 ModelCovariance CovarianceOfModel(const LegCalibration& calibration);
 
-// Provenance is the caller's to add.
+// With the covariance of what was estimated; what was held or stays open has no rows. Provenance is the
+// caller's to add.
 CalibratedModel ToModel(const LegCalibration& calibration);
 
 // One standard deviation of a leg's parameters (m) in CovarianceOfModel, and of A in the camera frame; NaN:

@@ -348,6 +348,7 @@ LegCalibration Calibrator::Result() const {
   for (size_t i = 0; i < kLegCount; ++i) {
     const LegParameters& leg = problem_.shared.legs[i];
     result.base_joints_in_camera_m[i] = leg.segment<3>(leg_parameter::kBaseJoint);
+    result.drawn_base_joints_m[i] = input_.drawing.legs[i].base_joint_m;
     result.robot.legs[i].platform_joint_m = leg.segment<3>(leg_parameter::kPlatformJoint);
     result.robot.legs[i].radius_m = leg[leg_parameter::kRadius];
     result.robot.legs[i].joint_offset_m = leg[leg_parameter::kJointOffset];
@@ -445,17 +446,42 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
   return result;
 }
 
-Eigen::Matrix<double, 18, kSharedParameterCount> BaseJointsFromShared(const LegCalibration& calibration) {
-  const Eigen::Matrix3d base_from_camera =
-      calibration.camera_from_base.rotation.conjugate().toRotationMatrix();
-  Eigen::Matrix<double, 18, kSharedParameterCount> to_base =
-      Eigen::Matrix<double, 18, kSharedParameterCount>::Zero();
-  std::array<Eigen::Vector3d, kLegCount> joints;
-  for (int i = 0; i < kLegCount; ++i) {
-    to_base.block<3, 3>(3 * i, FirstParameterOfLeg(i) + leg_parameter::kBaseJoint) = base_from_camera;
-    joints[static_cast<size_t>(i)] = calibration.robot.legs[static_cast<size_t>(i)].base_joint_m;
+BaseFromShared DifferentiateBase(const LegCalibration& calibration) {
+  const Eigen::Matrix3d rotation = calibration.camera_from_base.rotation.toRotationMatrix();
+  Eigen::Vector3d found_mean = Eigen::Vector3d::Zero(), drawn_mean = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < kLegCount; ++i) {
+    found_mean += calibration.base_joints_in_camera_m[i] / kLegCount;
+    drawn_mean += rotation * calibration.drawn_base_joints_m[i] / kLegCount;
   }
-  return WithoutRigidMotion(joints) * to_base;
+  // The fit ends where sum drawn x found = 0, both about their means: its differential gives omega by A.
+  Eigen::Matrix3d by_turn = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 18> by_joints, mean;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    const Eigen::Vector3d found = calibration.base_joints_in_camera_m[i] - found_mean;
+    const Eigen::Vector3d drawn = rotation * calibration.drawn_base_joints_m[i] - drawn_mean;
+    by_turn += found.dot(drawn) * Eigen::Matrix3d::Identity() - drawn * found.transpose();
+    by_joints.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = Skew(drawn);
+    mean.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = Eigen::Matrix3d::Identity() / kLegCount;
+  }
+  const Eigen::Matrix<double, 3, 18> turn = by_turn.inverse() * by_joints;
+  const Eigen::Matrix<double, 3, 18> shift = mean + Skew(drawn_mean) * turn;
+
+  Eigen::Matrix<double, 18, kSharedParameterCount> joints_in_camera;
+  joints_in_camera.setZero();
+  Eigen::Matrix<double, 18, 18> in_base;
+  for (int i = 0; i < kLegCount; ++i) {
+    joints_in_camera.middleCols<3>(FirstParameterOfLeg(i) + leg_parameter::kBaseJoint)
+        .middleRows<3>(3 * i)
+        .setIdentity();
+    const Eigen::Vector3d arm = calibration.base_joints_in_camera_m[static_cast<size_t>(i)] -
+                                calibration.camera_from_base.translation;
+    in_base.middleRows<3>(3 * i) = Skew(arm) * turn - shift;
+    in_base.block<3, 3>(3 * i, 3 * i) += Eigen::Matrix3d::Identity();
+    in_base.middleRows<3>(3 * i) = (rotation.transpose() * in_base.middleRows<3>(3 * i)).eval();
+  }
+  BaseFromShared base{in_base * joints_in_camera, {}};
+  base.placement << shift * joints_in_camera, turn * joints_in_camera;
+  return base;
 }
 
 }  // namespace legible

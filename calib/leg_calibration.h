@@ -73,6 +73,7 @@ struct LegCalibration {
   Rigid3 camera_from_base;  // base: the rigid fit of A to the drawing
   GoughStewart robot;       // A in base, B in platform (the rigid fit of B to the drawing)
   std::array<Eigen::Vector3d, kLegCount> base_joints_in_camera_m;
+  std::array<Eigen::Vector3d, kLegCount> drawn_base_joints_m;  // that the base frame is fitted by
   std::vector<Rigid3> camera_from_platform;           // by image; identity where the platform is not rigid
   std::array<Eigen::Vector4d, kLegCount> shading_px;  // lasting: shift and tilt of edge 1, of edge 2
   Observability observability;                        // covariance of the shared parameters, A in camera
@@ -91,8 +92,14 @@ struct LegCalibration {
 // residuals. Throws std::invalid_argument on malformed input; every numerical outcome is in the status.
 LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options);
 
-// How A in the base frame (x, y, z of legs 1…6) moves with the shared parameters: the base frame is itself
-// the rigid fit of A to the drawing, so that a motion of all A together does not show.
-Eigen::Matrix<double, 18, kSharedParameterCount> BaseJointsFromShared(const LegCalibration& calibration);
+// How the base moves with the shared parameters, exactly to first order. Its frame is itself the rigid fit of
+// the drawing to A, so that a motion of all A together shows in the placement only.
+struct BaseFromShared {
+  Eigen::Matrix<double, 18, kSharedParameterCount> joints;  // A in base, x y z of legs 1 to 6
+  Eigen::Matrix<double, 6, kSharedParameterCount>
+      placement;  // (v, omega) in the camera frame: camera_from_base
+                  // becomes {Exp(omega) rotation, translation + v}
+};
+BaseFromShared DifferentiateBase(const LegCalibration& calibration);
 
 }  // namespace legible

@@ -4,8 +4,10 @@
 
 #include <stdexcept>
 
+#include "calib/calibrated_model.h"
 #include "tests/calib/truth_problem.h"
 #include "tests/testing/matrices.h"
+#include "tests/testing/random.h"
 
 namespace legible {
 namespace {
@@ -216,17 +218,47 @@ TEST(LegCalibration, RejectsSamplesWithoutAFiniteSigma) {
   }
 }
 
-TEST(LegCalibration, BaseJointsInBaseFollowTheSharedParametersWithoutTheirCommonMotion) {
+// Against the rigid fit of the drawing to moved joints.
+TEST(DifferentiateBase, IsTheDerivativeOfTheFit) {
+  std::mt19937_64 generator = TestGenerator();
   const SyntheticSession session = GenerateSession(FewImages());
   const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
-  const auto derivative = BaseJointsFromShared(found);
-  // A motion of all base joints together in the camera frame does not show.
-  const Eigen::Vector3d shift(0.1, -0.2, 0.3), turn(-0.2, 0.1, 0.3);
-  Eigen::VectorXd motion = Eigen::VectorXd::Zero(kSharedParameterCount);
+  const BaseFromShared derivative = DifferentiateBase(found);
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(kSharedParameterCount);
   for (int leg = 0; leg < kLegCount; ++leg)
-    motion.segment<3>(FirstParameterOfLeg(leg)) =
-        shift + turn.cross(found.base_joints_in_camera_m[static_cast<size_t>(leg)]);
-  EXPECT_TRUE(AreNear(derivative * motion, Eigen::VectorXd::Zero(18), 1e-12));
+    direction.segment<3>(FirstParameterOfLeg(leg)) = UniformVector(generator, -1, 1);
+  constexpr double kStep_m = 1e-5;
+  const auto fitted = [&](double step_m) {
+    std::vector<Eigen::Vector3d> moved;
+    for (int leg = 0; leg < kLegCount; ++leg)
+      moved.push_back(found.base_joints_in_camera_m[static_cast<size_t>(leg)] +
+                      step_m * direction.segment<3>(FirstParameterOfLeg(leg)));
+    const Rigid3 camera_from_base =
+        FitRigid({found.drawn_base_joints_m.begin(), found.drawn_base_joints_m.end()}, moved);
+    Eigen::VectorXd joints(18);
+    for (int leg = 0; leg < kLegCount; ++leg)
+      joints.segment<3>(3 * leg) = Inverse(camera_from_base) * moved[static_cast<size_t>(leg)];
+    return std::pair(camera_from_base, joints);
+  };
+  const auto [before, joints_before] = fitted(-kStep_m);
+  const auto [after, joints_after] = fitted(kStep_m);
+  EXPECT_TRUE(AreNear(derivative.joints * direction, (joints_after - joints_before) / (2 * kStep_m), 1e-7));
+  const Eigen::AngleAxisd turn(after.rotation * before.rotation.conjugate());
+  Vector6d placement;
+  placement << after.translation - before.translation, turn.angle() * turn.axis();
+  EXPECT_TRUE(AreNear(derivative.placement * direction, placement / (2 * kStep_m), 1e-7));
+}
+
+TEST(ToModel, ListsTheCovarianceOfWhatWasEstimatedOnly) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationOptions options;
+  options.hold.radii = true;
+  const CalibratedModel model = ToModel(CalibrateLegs(InputOf(session, session.observations), options));
+  for (const std::string& name : model.parameter_names)
+    EXPECT_EQ(name.find("radius"), std::string::npos) << name;
+  EXPECT_EQ(model.parameter_names.back(), "camera_from_base.rotation_rad.z");
+  ASSERT_EQ(model.covariance.rows(), static_cast<Eigen::Index>(model.parameter_names.size()));
+  EXPECT_GT(model.covariance.diagonal().minCoeff(), 0);
 }
 
 }  // namespace
