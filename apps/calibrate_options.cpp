@@ -131,6 +131,11 @@ void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
       })
       ->type_name("N")
       ->capture_default_str();
+  command
+      .add_option(
+          "--seed", settings.seed,
+          "Draw at random, from this seed, which images are\nheld out together; without it nothing is random")
+      ->type_name("N");
   settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command
       .add_option("--threads", settings.threads,

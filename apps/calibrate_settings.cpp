@@ -132,6 +132,7 @@ SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const Pri
   options.estimation.threads = settings.threads;
   options.lens = settings.lens;
   options.folds = settings.folds;
+  options.seed = settings.seed;
   options.threads = settings.threads;
   return options;
 }
@@ -145,6 +146,7 @@ std::string OptionsText(const CalibrateSettings& settings) {
   if (!settings.use_readings) words.push_back("--no-readings");
   if (settings.free_legs) words.push_back("--free-legs");
   if (settings.folds != CalibrateSettings().folds) words.push_back(fmt::format("--folds {}", settings.folds));
+  if (settings.seed) words.push_back(fmt::format("--seed {}", *settings.seed));
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, " "));
 }
 

@@ -22,6 +22,7 @@ struct CalibrateSettings {
   bool use_readings = true;
   bool free_legs = false;  // edges only
   int folds = 5;
+  std::optional<std::uint64_t> seed;
   int threads = 2;
   bool embeds_pictures = true;
 };

@@ -14,6 +14,7 @@ constexpr int kModelParameters = kPlacement + 6;
 
 std::vector<std::string> ModelNames() {
   std::vector<std::string> names;
+  names.reserve(kModelParameters);
   for (int i = 0; i < kCameraParameterCount; ++i) names.push_back(ParameterName(i));
   for (int leg = 1; leg <= kLegCount; ++leg)
     for (const char* name : {"base_joint_m.x", "base_joint_m.y", "base_joint_m.z", "platform_joint_m.x",

@@ -1,7 +1,10 @@
 #include "calib/held_out.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <stdexcept>
 
 #include "calib/edge_residuals.h"
 
@@ -30,7 +33,7 @@ std::optional<Rigid3> FitPose(const LegCalibrationInput& input, const LegCalibra
   LegCalibrationInput one{
       trained.robot, trained.camera, trained.camera_from_base, {input.images[image]}, {}, StartAt(trained)};
   one.start->camera_from_platform = {first};
-  options.hold = {true, true, true, true, true, true, true};
+  options.hold = {true, true, true, true, true, true, true, true};
   options.progress = nullptr;
   const LegCalibration fitted = CalibrateLegs(one, options);
   if (fitted.status != CalibrationStatus::kConverged) return std::nullopt;
@@ -64,11 +67,11 @@ Squares PredictionError(const LegCalibration& trained, const ImageObservation& i
 }
 
 LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& solution,
-                     LegCalibrationOptions options, int folds, int fold) {
+                     LegCalibrationOptions options, const std::vector<int>& fold_of_image, int fold) {
   LegCalibrationInput training{input.drawing, input.camera,     input.camera_from_base, {},
                                input.known,   StartAt(solution)};
   for (size_t i = 0; i < input.images.size(); ++i) {
-    if (static_cast<int>(i) % folds == fold) continue;
+    if (fold_of_image[i] == fold) continue;
     training.images.push_back(input.images[i]);
     training.start->camera_from_platform.push_back(solution.camera_from_platform[i]);
   }
@@ -78,15 +81,29 @@ LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& sol
 
 }  // namespace
 
+std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> seed) {
+  std::vector<int> fold_of_image(images);
+  for (size_t i = 0; i < images; ++i) fold_of_image[i] = static_cast<int>(i % static_cast<size_t>(folds));
+  // Fisher-Yates: the standard library's shuffle differs from one library to the other.
+  std::mt19937_64 generator(seed.value_or(0));
+  for (size_t i = images; seed && i > 1; --i) std::swap(fold_of_image[i - 1], fold_of_image[generator() % i]);
+  return fold_of_image;
+}
+
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
-                      const LegCalibrationOptions& options, int folds) {
+                      const LegCalibrationOptions& options, const std::vector<int>& fold_of_image) {
+  if (fold_of_image.size() != input.images.size())
+    throw std::invalid_argument("CrossValidate: a fold for each image is needed");
+  const int folds =
+      fold_of_image.empty() ? 0 : *std::max_element(fold_of_image.begin(), fold_of_image.end()) + 1;
   HeldOut result;
   result.image_rms_px.resize(input.images.size());
   Squares all;
   for (int fold = 0; fold < folds; ++fold) {
-    const LegCalibration trained = Train(input, solution, options, folds, fold);
+    const LegCalibration trained = Train(input, solution, options, fold_of_image, fold);
     if (trained.status != CalibrationStatus::kConverged) continue;
-    for (size_t i = static_cast<size_t>(fold); i < input.images.size(); i += static_cast<size_t>(folds)) {
+    for (size_t i = 0; i < input.images.size(); ++i) {
+      if (fold_of_image[i] != fold) continue;
       const auto pose = PredictPose(input, trained, i, solution.camera_from_platform[i], options);
       if (!pose) continue;
       const Squares squares = PredictionError(trained, input.images[i], *pose);

@@ -1,6 +1,7 @@
 // Errors on what the estimate has not seen: images left out in turn, and tags.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,11 +15,14 @@ struct HeldOut {
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
 };
 
-// Leaves every folds-th image out, calibrates on the rest from `solution`, predicts the edges of those left
-// out and compares; each image is left out once. The platform's pose in them comes from the joint readings
-// alone; where the estimation uses none it is fitted to the image's edges, all else held.
+// Which images are left out together: every folds-th, or, with a seed, as many at random. folds > 0.
+std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> seed);
+
+// Leaves the images of one fold after the other out, calibrates on the rest from `solution`, predicts the
+// edges of those left out and compares. The platform's pose in them comes from the joint readings alone;
+// where the estimation uses none it is fitted to the image's edges, all else held.
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
-                      const LegCalibrationOptions& options, int folds);
+                      const LegCalibrationOptions& options, const std::vector<int>& fold_of_image);
 
 struct GroupCheck {
   int images = 0;

@@ -10,11 +10,12 @@
 namespace legible {
 namespace {
 
-constexpr int kMaxRounds = 12;          // of solving and re-weighting; the last keeps its weights
-constexpr int kRoundsByMedian = 2;      // the scale comes from the median until the worst outliers are gone
-constexpr double kSteadyScale = 1e-3;   // relative change of the noise at which the rounds end
-constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
-constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
+constexpr int kMaxRounds = 12;         // of solving and re-weighting; the last keeps its weights
+constexpr int kRoundsByMedian = 2;     // the scale comes from the median until the worst outliers are gone
+constexpr double kSteadyScale = 1e-3;  // relative change of the noise at which the rounds end
+constexpr double kHeldJointSigma_m = 1e-6;  // by which base joints that are held may leave the drawing
+constexpr double kSteadyWeight = 1e-4;      // mean absolute change of the weights at which they end
+constexpr double kAbsurdRms_px = 20;        // a fit this bad is a wrong model, not noise
 
 std::array<Eigen::Vector3d, kLegCount> DrawnJoints(const GoughStewart& robot, Eigen::Vector3d Leg::*joint) {
   std::array<Eigen::Vector3d, kLegCount> joints;
@@ -58,7 +59,7 @@ std::bitset<kSharedParameterCount> FreeParameters(const LegCalibrationInput& inp
     const auto set = [&](int entry, int count, bool value) {
       for (int i = 0; i < count; ++i) free[static_cast<size_t>(FirstParameterOfLeg(leg) + entry + i)] = value;
     };
-    set(leg_parameter::kBaseJoint, 3, !hold.base_joints);
+    set(leg_parameter::kBaseJoint, 3, !(hold.base_joints && hold.camera_pose));
     set(leg_parameter::kPlatformJoint, 3, !hold.platform_joints && options.rigid_platform);
     set(leg_parameter::kRadius, 1, !hold.radii);
     set(leg_parameter::kJointOffset, 1,
@@ -104,7 +105,8 @@ void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& op
       if (sigma_px > 0) add(parameter, sigma_px);
     }
   }
-  if (!options.hold.base_joints) problem.base_joint_sigma_m = known.base_joint_m.value_or(0);
+  const double drawn_sigma_m = options.hold.base_joints ? kHeldJointSigma_m : known.base_joint_m.value_or(0);
+  if (problem.free[static_cast<size_t>(FirstParameterOfLeg(0))]) problem.base_joint_sigma_m = drawn_sigma_m;
 }
 
 // Works through rounds of least squares and re-weighting on one problem.

@@ -37,7 +37,8 @@ struct HeldParameters {
   bool focal_length = false;
   bool principal_point = false;
   bool distortion = false;
-  bool base_joints = false;
+  bool base_joints = false;  // among themselves: where the base stands stays free
+  bool camera_pose = false;  // together with base_joints: where the base stands
   bool platform_joints = false;
   bool radii = false;
   bool joint_offsets = false;

@@ -261,8 +261,8 @@ class SessionCalibrator {
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
     for (size_t i : used) FinishImage(result_.images[i]);
     if (options_.folds > 1) {
-      const HeldOut held_out =
-          CrossValidate(Input(used), result_.calibration, options_.estimation, options_.folds);
+      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
+                                             FoldsOf(used.size(), options_.folds, options_.seed));
       result_.held_out_rms_px = held_out.rms_px;
       for (size_t k = 0; k < used.size(); ++k)
         result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];

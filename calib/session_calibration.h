@@ -16,9 +16,10 @@ namespace legible {
 struct SessionCalibrationOptions {
   LegCalibrationOptions estimation;
   LegEdgeOptions edges;
-  std::optional<LensModel> lens;  // instead of the session camera's
-  int scouts = 12;                // images that the camera's first pose is refined on
-  int folds = 5;                  // of the cross-validation; 0: none
+  std::optional<LensModel> lens;      // instead of the session camera's
+  int scouts = 12;                    // images that the camera's first pose is refined on
+  int folds = 5;                      // of the cross-validation; 0: none
+  std::optional<std::uint64_t> seed;  // of which images are held out together; none: every folds-th
   int threads = 2;
   // stage: "reading", "finding edges", "solving", "checking"; done of total.
   std::function<void(const std::string& stage, int done, int total)> progress;

@@ -13,10 +13,6 @@
 namespace legible {
 namespace {
 
-const std::vector<std::string> kFamilies = {"tag36h11",         "tag25h9",        "tag16h5",
-                                            "tagCircle21h7",    "tagCircle49h12", "tagStandard41h12",
-                                            "tagStandard52h13", "tagCustom48h12"};
-
 const char* CarrierName(TagCarrier carrier) { return carrier == TagCarrier::kBase ? "base" : "platform"; }
 
 std::string PlacementKey(TagCarrier carrier) { return fmt::format("{}_from_group", CarrierName(carrier)); }
@@ -103,9 +99,9 @@ TagLayout ReadTags(const std::filesystem::path& file) {
   TagLayout layout;
   const YamlValue family = root.Get("family");
   layout.family = family.Text();
-  if (std::find(kFamilies.begin(), kFamilies.end(), layout.family) == kFamilies.end()) {
+  if (std::find(kTagFamilies.begin(), kTagFamilies.end(), layout.family) == kTagFamilies.end()) {
     family.Fail(fmt::format("is \"{}\", which libapriltag does not have", layout.family),
-                fmt::format("the nearest that it has is {}", NearestName(layout.family, kFamilies)));
+                fmt::format("the nearest that it has is {}", NearestName(layout.family, kTagFamilies)));
   }
   Once names_and_ids;
   for (const YamlValue& section : root.Get("groups").List()) {

@@ -43,8 +43,13 @@ struct TagGroup {
   std::vector<Tag> tags;
 };
 
+// Families of tags that can be named, as libapriltag names them; "tag36h11" is the usual one.
+inline const std::vector<std::string> kTagFamilies = {
+    "tag36h11",       "tag36h10",         "tag25h9",          "tag16h5",       "tagCircle21h7",
+    "tagCircle49h12", "tagStandard41h12", "tagStandard52h13", "tagCustom48h12"};
+
 struct TagLayout {
-  std::string family;  // as libapriltag names it, "tag36h11"
+  std::string family;  // of kTagFamilies
   std::vector<TagGroup> groups;
 };
 

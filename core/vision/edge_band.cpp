@@ -109,6 +109,7 @@ bool JumpsAt(const EdgeBand& band, const std::vector<Levels>& levels, size_t i, 
 // jumps.
 void DropUnevenCells(EdgeBand& band, std::vector<Levels>& levels) {
   std::vector<double> contrasts;
+  contrasts.reserve(levels.size());
   for (const Levels& of_cell : levels) contrasts.push_back(of_cell.Contrast());
   const double typical = MedianOf(contrasts);
   const double largest_jump = std::max(kLargestRelativeJump * std::abs(typical), kLargestJump);

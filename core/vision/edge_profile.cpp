@@ -318,7 +318,7 @@ std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFi
     const CoefficientPrior prior = PriorAbout(whole, scatter, basis);
     return Fit(at, whole.model, prior, {start.place_px, Resized(start.coefficients, basis.size())}, options);
   };
-  const auto alike = fit(kAlikeAlongLeg, whole);
+  auto alike = fit(kAlikeAlongLeg, whole);
   if (!alike) return fit(kChangingAlongLeg, whole);
   if (whole.model == ShadingModel::kFlat) return alike;
   const Linearisation::Step changed =

@@ -276,6 +276,7 @@ void SampleStretch(size_t first, size_t last, Work& work) {
 void DropDisturbedSamples(std::vector<EdgeSample>& samples) {
   if (samples.empty()) return;
   std::vector<double> sigmas;
+  sigmas.reserve(samples.size());
   for (const EdgeSample& sample : samples) sigmas.push_back(sample.sigma_px);
   const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
   std::nth_element(sigmas.begin(), middle, sigmas.end());

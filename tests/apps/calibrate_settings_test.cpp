@@ -85,10 +85,11 @@ TEST(CalibrateSettings, OptionsAreToldAsTheyWouldBeTyped) {
   settings.known = {{"radius_m", 2e-5}, {"distortion", std::nullopt}};
   settings.use_readings = false;
   settings.folds = 0;
+  settings.seed = 7;
   EXPECT_EQ(
       OptionsText(settings),
       "--lens rational --hold radii,distortion --known radius_m=2e-05 --known distortion=none --no-readings "
-      "--folds 0");
+      "--folds 0 --seed 7");
 }
 
 TEST(CalibrateSettings, LensNamesNameLenses) {

@@ -1,6 +1,7 @@
 // What shading leaves of the edges' places on the shipped ray-traced session, against what the renderer knew.
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "core/geometry/edge_distance.h"
@@ -50,8 +51,9 @@ std::vector<BenchTable> MeasureSession(const std::string& folder) {
   Offsets pooled;
   double time_s = 0;
   for (const auto& [name, base_from_platform] : truth.images) {
-    const auto image = ReadGrayImage(folder + "/images/" + name);
-    if (!image) throw std::runtime_error(folder + "/images/" + name + ".png cannot be read");
+    const std::filesystem::path file = std::filesystem::path(folder) / "images" / name;
+    const auto image = ReadGrayImage(file);
+    if (!image) throw std::runtime_error(file.string() + " cannot be read");
     const LegsInCamera legs = PlaceLegs(truth.robot, truth.camera_from_base, base_from_platform);
     const auto before = std::chrono::steady_clock::now();
     const LegEdges found = MeasureLegEdges(*image, legs, truth.camera, {});

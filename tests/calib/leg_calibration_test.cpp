@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "calib/calibrated_model.h"
+#include "calib/held_out.h"
 #include "tests/calib/truth_problem.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
@@ -229,10 +231,10 @@ TEST(DifferentiateBase, IsTheDerivativeOfTheFit) {
     direction.segment<3>(FirstParameterOfLeg(leg)) = UniformVector(generator, -1, 1);
   constexpr double kStep_m = 1e-5;
   const auto fitted = [&](double step_m) {
-    std::vector<Eigen::Vector3d> moved;
+    std::vector<Eigen::Vector3d> moved(found.base_joints_in_camera_m.begin(),
+                                       found.base_joints_in_camera_m.end());
     for (int leg = 0; leg < kLegCount; ++leg)
-      moved.push_back(found.base_joints_in_camera_m[static_cast<size_t>(leg)] +
-                      step_m * direction.segment<3>(FirstParameterOfLeg(leg)));
+      moved[static_cast<size_t>(leg)] += step_m * direction.segment<3>(FirstParameterOfLeg(leg));
     const Rigid3 camera_from_base =
         FitRigid({found.drawn_base_joints_m.begin(), found.drawn_base_joints_m.end()}, moved);
     Eigen::VectorXd joints(18);
@@ -247,6 +249,30 @@ TEST(DifferentiateBase, IsTheDerivativeOfTheFit) {
   Vector6d placement;
   placement << after.translation - before.translation, turn.angle() * turn.axis();
   EXPECT_TRUE(AreNear(derivative.placement * direction, placement / (2 * kStep_m), 1e-7));
+}
+
+TEST(LegCalibration, HeldBaseJointsKeepTheirShapeWhileTheBaseIsPlaced) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.exact_observations);
+  for (size_t i = 0; i < kLegCount; ++i)
+    input.drawing.legs[i].base_joint_m = session.true_robot.legs[i].base_joint_m;
+  LegCalibrationOptions options;
+  options.hold.base_joints = true;
+  const LegCalibration found = CalibrateLegs(input, options);
+  ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  for (size_t i = 0; i < kLegCount; ++i)
+    EXPECT_TRUE(AreNear(found.robot.legs[i].base_joint_m, input.drawing.legs[i].base_joint_m, 2e-6));
+  EXPECT_TRUE(AreNear(found.camera_from_base.translation, session.true_camera_from_base.translation, 1e-4));
+  EXPECT_FALSE(AreNear(input.camera_from_base.translation, session.true_camera_from_base.translation, 1e-4));
+}
+
+// Which images are left out together.
+TEST(FoldsOf, AreEveryNthImageOrAsManyDrawnFromTheSeed) {
+  EXPECT_EQ(FoldsOf(7, 3, std::nullopt), (std::vector<int>{0, 1, 2, 0, 1, 2, 0}));
+  const std::vector<int> drawn = FoldsOf(40, 5, 3);
+  EXPECT_EQ(drawn, FoldsOf(40, 5, 3));
+  EXPECT_NE(drawn, FoldsOf(40, 5, 4));
+  for (int fold = 0; fold < 5; ++fold) EXPECT_EQ(std::count(drawn.begin(), drawn.end(), fold), 8);
 }
 
 TEST(ToModel, ListsTheCovarianceOfWhatWasEstimatedOnly) {

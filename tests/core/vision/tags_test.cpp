@@ -189,5 +189,15 @@ TEST(Match, TakesOnlyTheGroupsOwnTags) {
   EXPECT_EQ(Match(Board(), detections).corners_px.size(), 4);
 }
 
+TEST(TagDetector, KnowsEveryFamilyThatASessionMayName) {
+  try {
+    TagDetector detector("none of them");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    for (const std::string& family : kTagFamilies)
+      EXPECT_NE(std::string(error.what()).find(family), std::string::npos) << family;
+  }
+}
+
 }  // namespace
 }  // namespace legible
