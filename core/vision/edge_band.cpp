@@ -272,6 +272,20 @@ EdgeProfile CoarserFarFromTheEdge(const EdgeProfile& profile, double fine_px) {
   return coarser;
 }
 
+std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px) {
+  const double cells = std::max(1.0, length_px / step_px);
+  std::vector<std::pair<size_t, size_t>> stretches;
+  for (size_t first = 0, last = 0; first < band.cells.size(); first = last) {
+    last = first + 1;
+    while (last < band.cells.size() && band.cells[last].follows_previous) ++last;
+    const auto run = static_cast<double>(last - first);
+    const auto parts = static_cast<size_t>(std::max(1.0, std::round(run / cells)));
+    for (size_t i = 0; i < parts; ++i)
+      stretches.emplace_back(first + i * (last - first) / parts, first + (i + 1) * (last - first) / parts);
+  }
+  return stretches;
+}
+
 double GreyNoise(const EdgeBand& band) {
   std::vector<double> variances;
   for (const BandCell& cell : band.cells) {

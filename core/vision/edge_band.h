@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "core/vision/edge_profile.h"
@@ -65,6 +66,10 @@ EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell
 // The same profile with groups of bins that begin more than `fine_px` from the curve put together: shading is
 // smooth there.
 EdgeProfile CoarserFarFromTheEdge(const EdgeProfile& profile, double fine_px);
+
+// Groups of neighbouring cells, [first, last): each run of cells that follow each other in equal parts of
+// about `length_px`.
+std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px);
 
 // Standard deviation of a pixel's grey noise, from the background's scatter about each cell's own mean; 0 if
 // there are too few pixels.

@@ -2,25 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <stdexcept>
 
-#include "core/geometry/edge_distance.h"
 #include "core/vision/edge_band.h"
+#include "core/vision/edge_curve.h"
+#include "core/vision/edge_line.h"
 #include "core/vision/edge_profile.h"
+#include "core/vision/rough_trace.h"
 
 namespace legible {
 namespace {
 
 constexpr double kOutside_px = 6.5, kInside_px = 6;  // the fine band
 constexpr double kBin_px = 0.125, kFineBins_px = 2.5;
-constexpr double kRoughBin_px = 0.5, kRoughStretch_px = 18;
-constexpr double kRoughTolerance_px = 0.9;  // of a stretch from the line through the others
-constexpr double kBendStep_px = 3;
 constexpr double kLargestStretchSigma_px = 0.15;  // beyond, something else than shading disturbs the stretch
 constexpr double kLargestRelativeSigma = 3;       // of a stretch, against the median stretch's
 constexpr double kLeastStretchContrast = 12;      // grey levels, of the same sign as the whole edge's
@@ -28,7 +24,6 @@ constexpr double kLeastGreyNoise = 0.5;           // quantisation alone leaves 0
 // Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
 // place by its share of the contrast.
 constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
-constexpr double kOutlierSigmas = 4, kOutlierFloor_px = 0.1;
 constexpr double kFirstBlur_px = 0.75;
 constexpr const char* kNoEdge = "no edge in the brightness across it";
 
@@ -44,165 +39,6 @@ struct Work {
 
   bool Dropped() const { return !result->left_out.empty(); }
 };
-
-// The outline normal of the edge through two image points, on the side of `like`; nothing where the lens
-// folds.
-std::optional<Eigen::Vector3d> NormalThrough(const Camera& camera, const Eigen::Vector2d& a_px,
-                                             const Eigen::Vector2d& b_px, const Eigen::Vector3d& like) {
-  const auto a = Unproject(camera, a_px), b = Unproject(camera, b_px);
-  if (!a || !b) return std::nullopt;
-  const Eigen::Vector3d normal = a->homogeneous().cross(b->homogeneous()).normalized();
-  return normal.dot(like) < 0 ? Eigen::Vector3d(-normal) : normal;
-}
-
-// Moves the edge's curve to a new outline normal; the stretches keep their visibility.
-void MoveTo(const Camera& camera, const Eigen::Vector3d& normal, Work& work) {
-  work.predicted.normal = normal;
-  for (PredictedEdgePoint& point : work.predicted.points) {
-    const Eigen::Vector3d on_axis = work.leg->AxisPoint(point.share);
-    const auto moved = EdgePointNear(camera, normal, on_axis + work.leg->radius_m * normal);
-    if (!moved) {
-      point.obstacle = EdgeObstacle::kImageBorder;
-      continue;
-    }
-    point.point_px = moved->point_px;
-    point.normal_px = moved->normal_px;
-  }
-}
-
-// Moves the curve by `at_a` and `at_b` px outward at the leg's two ends.
-void ShiftEnds(const Camera& camera, double at_a_px, double at_b_px, Work& work) {
-  const PredictedEdgePoint &a = work.predicted.points.front(), &b = work.predicted.points.back();
-  const auto normal = NormalThrough(camera, a.point_px + at_a_px * a.normal_px,
-                                    b.point_px + at_b_px * b.normal_px, work.predicted.normal);
-  if (normal) MoveTo(camera, *normal, work);
-}
-
-double VisibleLength(const PredictedEdge& edge) {
-  double length = 0;
-  for (size_t i = 0; i + 1 < edge.points.size(); ++i)
-    if (edge.points[i].obstacle == EdgeObstacle::kNone && edge.points[i + 1].obstacle == EdgeObstacle::kNone)
-      length += (edge.points[i + 1].point_px - edge.points[i].point_px).norm();
-  return length;
-}
-
-// What keeps most of the edge from being seen.
-std::string MainObstacle(const PredictedEdge& edge) {
-  std::map<std::string, int> reasons;
-  for (const PredictedEdgePoint& point : edge.points)
-    if (point.obstacle != EdgeObstacle::kNone) ++reasons[Describe(point)];
-  const auto most = std::max_element(reasons.begin(), reasons.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == reasons.end() ? "too short in the image" : most->first;
-}
-
-// Groups of neighbouring cells, [first, last): each run of cells that follow each other in equal parts of
-// about `length_px`.
-std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px) {
-  const double cells = std::max(1.0, length_px / step_px);
-  std::vector<std::pair<size_t, size_t>> stretches;
-  for (size_t first = 0, last = 0; first < band.cells.size(); first = last) {
-    last = first + 1;
-    while (last < band.cells.size() && band.cells[last].follows_previous) ++last;
-    const auto run = static_cast<double>(last - first);
-    const auto parts = static_cast<size_t>(std::max(1.0, std::round(run / cells)));
-    for (size_t i = 0; i < parts; ++i)
-      stretches.emplace_back(first + i * (last - first) / parts, first + (i + 1) * (last - first) / parts);
-  }
-  return stretches;
-}
-
-// ---- The rough stage: the strongest step of each stretch, and the line on which most of them lie.
-
-struct RoughPlace {
-  double share = 0;
-  Eigen::Vector2d centre_px, normal_px;  // of the predicted curve there
-  double outward_px = 0;
-  double step = 0;  // grey levels over two bins, signed: positive where the leg is brighter
-};
-
-std::optional<RoughPlace> StrongestStep(const EdgeProfile& profile, const BandCell& middle) {
-  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0};
-  for (size_t i = 2; i + 2 < profile.size(); ++i) {
-    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 ||
-        profile[i + 1].count == 0)
-      continue;
-    const double step = (profile[i].brightness + profile[i + 1].brightness - profile[i - 1].brightness -
-                         profile[i - 2].brightness) /
-                        2;
-    if (std::abs(step) <= std::abs(best.step)) continue;
-    best.step = step;
-    best.outward_px = -(profile[i].inside_px + profile[i - 1].inside_px) / 2;
-  }
-  if (best.step == 0) return std::nullopt;
-  return best;
-}
-
-// outward_px = at_a + slope * share + bend * share * (share - 1): the prediction's error along the leg.
-struct RoughCurve {
-  double at_a_px = 0, slope_px = 0, bend_px = 0;
-  double polarity = 0;
-  double support = 0;  // sum over the agreeing stretches of their step's square root
-  int count = 0;
-
-  double At(double share) const { return at_a_px + slope_px * share + bend_px * share * (share - 1); }
-  bool Agrees(const RoughPlace& place) const {
-    return place.step * polarity > 0 && std::abs(place.outward_px - At(place.share)) <= kRoughTolerance_px;
-  }
-};
-
-RoughCurve CurveThrough(const RoughPlace& a, const RoughPlace& b, double bend_px) {
-  const auto straight = [&](const RoughPlace& p) { return p.outward_px - bend_px * p.share * (p.share - 1); };
-  const double slope = (straight(b) - straight(a)) / (b.share - a.share);
-  return {straight(a) - slope * a.share, slope, bend_px, a.step, 0, 0};
-}
-
-// The curve through two of the places, with a bend up to largest_bend_px, on which most of the contrast of
-// one sign lies.
-RoughCurve Consensus(const std::vector<RoughPlace>& places, double largest_bend_px) {
-  RoughCurve best;
-  for (size_t i = 0; i < places.size(); ++i)
-    for (size_t j = i + 1; j < places.size(); ++j) {
-      const RoughPlace &a = places[i], &b = places[j];
-      if (b.share - a.share < 0.1 || a.step * b.step < 0) continue;
-      for (double bend = -largest_bend_px; bend <= largest_bend_px; bend += kBendStep_px) {
-        RoughCurve curve = CurveThrough(a, b, bend);
-        for (const RoughPlace& place : places) {
-          if (!curve.Agrees(place)) continue;
-          curve.support += std::sqrt(std::abs(place.step));
-          ++curve.count;
-        }
-        if (curve.support > best.support) best = curve;
-      }
-    }
-  return best;
-}
-
-// The places that agree with the curve are the samples where only a rough measurement is wanted.
-void KeepAsSamples(const std::vector<RoughPlace>& places, const RoughCurve& curve, Work& work) {
-  work.result->observation = {work.result->leg, work.result->edge, {}, 0};
-  for (const RoughPlace& place : places)
-    if (curve.Agrees(place))
-      work.result->observation.samples.push_back(
-          {place.centre_px + place.outward_px * place.normal_px, place.normal_px, kRoughTolerance_px / 2});
-}
-
-void TraceRoughly(const GrayImage& image, const Camera& camera, const LegEdgeOptions& options, Work& work) {
-  const double reach = options.search_px + 2;
-  const EdgeBand band = CollectBand(image, work.predicted.points, reach, reach);
-  std::vector<RoughPlace> places;
-  for (const auto& [first, last] : Stretches(band, kRoughStretch_px, options.visibility.step_px)) {
-    const EdgeProfile profile = BinProfile(band, first, last, reach, reach, kRoughBin_px);
-    if (const auto place = StrongestStep(profile, band.cells[(first + last) / 2])) places.push_back(*place);
-  }
-  const RoughCurve curve = Consensus(places, options.rough_bend_px);
-  if (curve.count < 3 || curve.count < 0.4 * static_cast<double>(places.size()))
-    work.result->left_out = "no straight edge near the prediction";
-  else if (options.rough_only)
-    KeepAsSamples(places, curve, work);
-  else
-    ShiftEnds(camera, curve.At(0), curve.At(1), work);
-}
 
 // ---- The fine stage: one profile of the whole edge, one blur of the whole image.
 
@@ -294,56 +130,12 @@ void Sample(const LegEdgeOptions& options, double length_px, Work& work) {
   work.result->length_px = work.band.length_px;
 }
 
-// ---- The line through the samples.
-
-// Unit vectors across the normal: changes of it.
-Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 3, 2> tangents;
-  tangents.col(0) = normal.unitOrthogonal();
-  tangents.col(1) = normal.cross(tangents.col(0));
-  return tangents;
-}
-
-// One Gauss-Newton step of the outline normal towards the samples; drops samples that stand out from the
-// line.
 void FitLine(const Camera& camera, Work& work) {
-  LegEdge& edge = *work.result;
-  edge.normal = work.predicted.normal;
-  if (edge.observation.samples.size() < 2) return;
-  const CameraParameters parameters = ParametersOf(camera);
-  Eigen::Vector3d normal = work.predicted.normal;
-  for (int round = 0; round < 4; ++round) {
-    const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(normal);
-    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-    std::vector<double> residuals;
-    for (const EdgeSample& sample : edge.observation.samples) {
-      const auto distance = DistanceToEdge(parameters, normal, sample.point_px, sample.normal_px);
-      residuals.push_back(distance ? distance->distance_px : std::numeric_limits<double>::infinity());
-      if (!distance) continue;
-      const Eigen::RowVector2d row = distance->d_distance_d_normal * tangents / sample.sigma_px;
-      const double standardised = distance->distance_px / std::hypot(sample.sigma_px, kOutlierFloor_px);
-      const double weight = 1 / (1 + std::pow(standardised / 2, 4));
-      information += weight * row.transpose() * row;
-      moment -= weight * row.transpose() * (distance->distance_px / sample.sigma_px);
-    }
-    normal = (normal + tangents * information.ldlt().solve(moment)).normalized();
-    if (round < 3) continue;
-    edge.normal_covariance = tangents * information.inverse() * tangents.transpose();
-    std::vector<EdgeSample> kept;
-    double squares = 0;
-    for (size_t i = 0; i < residuals.size(); ++i) {
-      const EdgeSample& sample = edge.observation.samples[i];
-      if (std::abs(residuals[i]) > std::max(kOutlierSigmas * sample.sigma_px, kOutlierFloor_px)) continue;
-      kept.push_back(sample);
-      squares += residuals[i] * residuals[i];
-    }
-    edge.observation.samples = std::move(kept);
-    edge.rms_px = edge.observation.samples.empty()
-                      ? 0
-                      : std::sqrt(squares / static_cast<double>(edge.observation.samples.size()));
-  }
-  edge.normal = normal;
+  EdgeLine line = FitEdgeLine(camera, work.predicted.normal, work.result->observation.samples);
+  work.result->normal = line.normal;
+  work.result->normal_covariance = line.normal_covariance;
+  work.result->observation.samples = std::move(line.samples);
+  work.result->rms_px = line.rms_px;
 }
 
 void Judge(const LegEdgeOptions& options, Work& work) {
@@ -382,7 +174,7 @@ class Measurement {
 
   LegEdges Run() {
     for (Work& work : works_)
-      if (!work.Dropped()) TraceRoughly(image_, camera_, options_, work);
+      if (!work.Dropped()) Trace(work);
     if (options_.rough_only) return std::move(result_);
     for (Work& work : works_)
       if (!work.Dropped()) CollectProfile(image_, 0, LevelShape(), work);
@@ -407,8 +199,19 @@ class Measurement {
       }
       // The lock's shift is towards edge 2: outward for that one, inward for edge 1.
       const double sign = work.result->edge == 1 ? 1 : -1;
-      ShiftEnds(camera_, sign * lock->shift_at_a_px, sign * lock->shift_at_b_px, work);
+      ShiftEnds(camera_, *work.leg, sign * lock->shift_at_a_px, sign * lock->shift_at_b_px, work.predicted);
     }
+  }
+
+  void Trace(Work& work) const {
+    const auto trace = TraceRoughly(
+        image_, work.predicted, {options_.search_px, options_.rough_bend_px, options_.visibility.step_px});
+    if (!trace)
+      work.result->left_out = "no straight edge near the prediction";
+    else if (options_.rough_only)
+      work.result->observation = {work.result->leg, work.result->edge, trace->samples, 0};
+    else
+      ShiftEnds(camera_, *work.leg, trace->at_a_px, trace->at_b_px, work.predicted);
   }
 
   void CheckLength(Work& work) const {
@@ -469,7 +272,7 @@ class Measurement {
     if (work.Dropped()) return;
     Sample(options_, 2 * options_.sample_length_px, work);
     FitLine(camera_, work);
-    MoveTo(camera_, work.result->normal, work);
+    MoveTo(camera_, *work.leg, work.result->normal, work.predicted);
     // The samples moved the curve onto the edge.
     work.fit->place_px = 0;
     CollectProfile(image_, 0, LevelShape(*work.fit, work.fit_options), work);
