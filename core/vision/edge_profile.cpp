@@ -2,108 +2,34 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "core/vision/blurred_powers.h"
 
 namespace legible {
 namespace {
 
-constexpr int kMaxColumns = 16;
 constexpr int kMaxSteps = 12;
 constexpr double kLongestStep_px = 0.5;
-constexpr double kSteady_px = 1e-3;      // the step after it would be a tenth of that
-constexpr double kOutsideSlope = 0.3;    // grey levels per px: prior of the background's slope
-constexpr double kFirstKink_rad = 0.65;  // surface angle
-constexpr double kKinkStep_rad = 0.1;
+constexpr double kSteady_px = 1e-3;    // the step after it would be a tenth of that
+constexpr double kOutsideSlope = 0.3;  // grey levels per px: prior of the background's slope
 constexpr double kKink = 28.6;  // grey levels per rad: prior of a kink in brightness over surface angle
 // By which the squares must fall for a stretch to count as shaded in its own way.
 constexpr double kEvidenceOfChange = 25;
 constexpr double kCoefficientsOfKinks = 2.5;  // that a kinked profile counts for beyond the angular one's
 constexpr double kAmbientLevel = 25, kAmbientScatter = 5;  // grey levels: prior of the light from everywhere
 constexpr double kHeld = 100;                              // inverse sigma of what keeps its expected value
-constexpr double kPixelVariance = 1.0 / 12;                // of a pixel's own extent
 constexpr double kStrictness = 2;                          // times the BIC's price of a coefficient
 
-using Columns = Eigen::Matrix<double, kMaxColumns, 1>;
+using Columns = ShadingBasis::Columns;
+constexpr int kMaxColumns = ShadingBasis::kMaxColumns;
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
 // The coefficients, then the place.
 using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxColumns + 1, 1>;
 using NormalMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns + 1, kMaxColumns + 1>;
 
-// Columns of the shaded models; the flat one has only the two levels.
-constexpr Eigen::Index kOutside = 1, kLevel = 2, kAngle = 3, kAmbient = 4, kFirstKink = 5;
-
-// The model's linear part at one distance: basis functions and their slopes.
-class Basis {
- public:
-  Basis(ShadingModel model, const ProfileFitOptions& options)
-      : model_(model),
-        s_(std::sqrt(options.blur_px * options.blur_px + kPixelVariance)),
-        w_(options.half_width_px) {
-    size_ = model == ShadingModel::kFlat ? 2 : kFirstKink;
-    if (model != ShadingModel::kKinked) return;
-    for (double psi = kFirstKink_rad; size_ < kMaxColumns; psi += kKinkStep_rad) {
-      const double x = w_ * (1 - std::cos(psi));
-      if (x > options.inside_px + 1.5) break;
-      kinks_.push_back({x, 1 / (w_ * std::sin(psi))});
-      ++size_;
-    }
-  }
-
-  int size() const { return size_; }
-
-  void Evaluate(double x, Columns& value, Columns& slope) const {
-    const double z = x / s_;
-    const BlurredPower step = BlurredStep(z);
-    value[0] = 1 - step.value;
-    slope[0] = -step.derivative / s_;
-    if (model_ == ShadingModel::kFlat) {
-      value[1] = step.value;
-      slope[1] = -slope[0];
-      return;
-    }
-    const BlurredPower ramp = BlurredRamp(z);
-    value[kOutside] = x - s_ * ramp.value;  // x for x < 0, blurred
-    slope[kOutside] = 1 - ramp.derivative;
-    // 1 - cos psi = x / w
-    value[kAmbient] = s_ / w_ * ramp.value;
-    slope[kAmbient] = ramp.derivative / w_;
-    value[kLevel] = step.value - value[kAmbient];
-    slope[kLevel] = -slope[0] - slope[kAmbient];
-    EvaluateAngle(z, value[kAngle], slope[kAngle]);
-    for (size_t k = 0; k < kinks_.size(); ++k) {
-      const BlurredPower kink = BlurredRamp((x - kinks_[k].place_px) / s_);
-      value[kFirstKink + static_cast<Eigen::Index>(k)] = s_ * kink.value * kinks_[k].rad_per_px;
-      slope[kFirstKink + static_cast<Eigen::Index>(k)] = kink.derivative * kinks_[k].rad_per_px;
-    }
-  }
-
- private:
-  // psi = acos(1 - x/w) = sqrt(2 x/w) (1 + x/(12 w) + 3 x^2/(160 w^2) + …), blurred term by term.
-  void EvaluateAngle(double z, double& value, double& slope) const {
-    const double ratio = s_ / w_;
-    const double factor = std::sqrt(2 * ratio);
-    const BlurredPower a = BlurredHalfPower(HalfPower::kOneHalf, z);
-    const BlurredPower b = BlurredHalfPower(HalfPower::kThreeHalves, z);
-    const BlurredPower c = BlurredHalfPower(HalfPower::kFiveHalves, z);
-    const double of_b = ratio / 12, of_c = 3 * ratio * ratio / 160;
-    value = factor * (a.value + of_b * b.value + of_c * c.value);
-    slope = factor / s_ * (a.derivative + of_b * b.derivative + of_c * c.derivative);
-  }
-
-  struct Kink {
-    double place_px;    // inside the edge
-    double rad_per_px;  // of the surface angle there: coefficients are in grey levels per rad
-  };
-
-  ShadingModel model_;
-  double s_, w_;
-  int size_;
-  std::vector<Kink> kinks_;
-};
+ShadingBasis BasisOf(ShadingModel model, const ProfileFitOptions& options) {
+  return {model, options.blur_px, options.half_width_px, options.inside_px};
+}
 
 // What the coefficients are expected to be.
 struct CoefficientPrior {
@@ -112,13 +38,13 @@ struct CoefficientPrior {
 };
 
 // Background slope and kinks about zero, levels and the line in psi free.
-CoefficientPrior PriorOf(const Basis& basis) {
+CoefficientPrior PriorOf(const ShadingBasis& basis) {
   CoefficientPrior prior{Coefficients::Zero(basis.size()), Coefficients::Zero(basis.size())};
-  if (basis.size() < kFirstKink) return prior;
-  prior.inverse_sigma[kOutside] = 1 / kOutsideSlope;
-  prior.mean[kAmbient] = kAmbientLevel;
-  prior.inverse_sigma[kAmbient] = 1 / kAmbientScatter;
-  prior.inverse_sigma.tail(basis.size() - kFirstKink).setConstant(1 / kKink);
+  if (basis.size() < ShadingBasis::kFirstKink) return prior;
+  prior.inverse_sigma[ShadingBasis::kOutside] = 1 / kOutsideSlope;
+  prior.mean[ShadingBasis::kAmbient] = kAmbientLevel;
+  prior.inverse_sigma[ShadingBasis::kAmbient] = 1 / kAmbientScatter;
+  prior.inverse_sigma.tail(basis.size() - ShadingBasis::kFirstKink).setConstant(1 / kKink);
   return prior;
 }
 
@@ -140,13 +66,14 @@ Coefficients Resized(const Eigen::VectorXd& coefficients, Eigen::Index size) {
 }
 
 // About the coefficients of the whole edge; levels free.
-CoefficientPrior PriorAbout(const ProfileFit& whole, const StretchScatter& scatter, const Basis& basis) {
+CoefficientPrior PriorAbout(const ProfileFit& whole, const StretchScatter& scatter,
+                            const ShadingBasis& basis) {
   CoefficientPrior prior = PriorOf(basis);
-  if (basis.size() < kFirstKink) return prior;
+  if (basis.size() < ShadingBasis::kFirstKink) return prior;
   prior.mean = Resized(whole.coefficients, basis.size());
-  prior.inverse_sigma[kAngle] = 1 / scatter.angle;
-  prior.inverse_sigma[kAmbient] = kHeld;
-  prior.inverse_sigma.tail(basis.size() - kFirstKink).setConstant(1 / scatter.kink);
+  prior.inverse_sigma[ShadingBasis::kAngle] = 1 / scatter.angle;
+  prior.inverse_sigma[ShadingBasis::kAmbient] = kHeld;
+  prior.inverse_sigma.tail(basis.size() - ShadingBasis::kFirstKink).setConstant(1 / scatter.kink);
   return prior;
 }
 
@@ -154,7 +81,7 @@ CoefficientPrior PriorAbout(const ProfileFit& whole, const StretchScatter& scatt
 // deviation. Places, coefficients and priors come apart: the basis functions are evaluated once a place.
 class Linearisation {
  public:
-  Linearisation(const EdgeProfile& profile, const Basis& basis, const ProfileFitOptions& options)
+  Linearisation(const EdgeProfile& profile, const ShadingBasis& basis, const ProfileFitOptions& options)
       : basis_(basis), options_(options) {
     const auto bins = static_cast<Eigen::Index>(profile.size());
     values_.resize(bins, basis.size());
@@ -234,7 +161,7 @@ class Linearisation {
     double inside_px, brightness, weight;
   };
 
-  const Basis& basis_;
+  const ShadingBasis& basis_;
   const ProfileFitOptions& options_;
   std::vector<Weighed> weighed_;
   Eigen::MatrixXd values_, slopes_;
@@ -250,7 +177,7 @@ ProfileFit Summarise(const Linearisation::Step& step, int bins, ShadingModel mod
   fit.model = model;
   fit.place_px = place_px;
   fit.coefficients = coefficients;
-  fit.contrast = coefficients[flat ? 1 : kLevel] - coefficients[0];
+  fit.contrast = coefficients[flat ? 1 : ShadingBasis::kLevel] - coefficients[0];
   fit.squares = step.squares;
   const double freedom = bins - (flat ? 3.0 : 5.0);
   fit.chi2_per_bin = freedom > 0 ? step.data_squares / freedom : 0;
@@ -305,14 +232,14 @@ double PriceOf(ShadingModel model) {
 
 std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel model, double start_px,
                                      const ProfileFitOptions& options) {
-  const Basis basis(model, options);
+  const ShadingBasis basis = BasisOf(model, options);
   Linearisation at(profile, basis, options);
   return Fit(at, model, PriorOf(basis), {start_px, std::nullopt}, options);
 }
 
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options) {
-  const Basis basis(whole.model, options);
+  const ShadingBasis basis = BasisOf(whole.model, options);
   Linearisation at(profile, basis, options);
   const auto fit = [&](const StretchScatter& scatter, const ProfileFit& start) {
     const CoefficientPrior prior = PriorAbout(whole, scatter, basis);
@@ -330,7 +257,7 @@ std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFi
 }
 
 double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const ProfileFitOptions& options) {
-  const Basis basis(fit.model, options);
+  const ShadingBasis basis = BasisOf(fit.model, options);
   Linearisation at(profile, basis, options);
   at.MoveTo(fit.place_px);
   return at.StepFrom(Resized(fit.coefficients, basis.size()), PriorOf(basis)).squares;
@@ -359,7 +286,7 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
 }
 
 PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const ProfileFitOptions& options) {
-  const Basis basis(fit.model, options);
+  const ShadingBasis basis = BasisOf(fit.model, options);
   Columns value = Columns::Zero(), slope = Columns::Zero();
   basis.Evaluate(inside_px - fit.place_px, value, slope);
   const Eigen::Index n = basis.size();
@@ -368,8 +295,9 @@ PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const Profi
 
 std::vector<BrightnessParts> PredictParts(const ProfileFit& fit, const std::vector<double>& inside_px,
                                           const ProfileFitOptions& options) {
-  const Basis basis(fit.model, options);
-  const Eigen::Index outer = fit.model == ShadingModel::kFlat ? 1 : kLevel, inner = basis.size() - outer;
+  const ShadingBasis basis = BasisOf(fit.model, options);
+  const Eigen::Index outer = fit.model == ShadingModel::kFlat ? 1 : ShadingBasis::kLevel,
+                     inner = basis.size() - outer;
   std::vector<BrightnessParts> parts;
   parts.reserve(inside_px.size());
   Columns value = Columns::Zero(), slope = Columns::Zero();

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/vision/shading_basis.h"
+
 namespace legible {
 
 // Mean brightness of the pixels at a signed distance from a line near the edge; `inside_px` grows into the
@@ -15,19 +17,6 @@ struct ProfileBin {
   double count = 0;       // of pixels; 0: empty
 };
 using EdgeProfile = std::vector<ProfileBin>;
-
-// How much of the leg's shading the model follows. All are linear in their coefficients; the edge's place x0
-// and the blur are not. With x = inside_px - x0, w the leg's half width and psi = acos(1 - x / w) the surface
-// angle from the outline (psi grows as sqrt(x): brightness is smooth in psi, not in x):
-//   kFlat      outside e0, inside c0
-//   kAngular   outside e0 + e1 x, inside c0 + c1 psi
-//   kKinked    as kAngular plus sum a_j max(0, x - x_j): kinks where a light's shadow begins on the surface,
-//   from
-//              psi = 0.55 rad on; nearer the outline nothing but the line in psi is allowed, for there a kink
-//              cannot be told from a shift of the edge
-// all convolved with a Gaussian of the given blur. e1 and a_j are held to zero by a prior of the size that
-// lit scenes show.
-enum class ShadingModel { kFlat, kAngular, kKinked };
 
 struct ProfileFit {
   ShadingModel model = ShadingModel::kFlat;
