@@ -113,6 +113,15 @@ std::string LargestEntries(const Eigen::VectorXd& direction) {
   return text;
 }
 
+// What shading does to the edges is there for the sake of the other parameters' uncertainty; nobody asks for
+// it.
+bool IsMostlyShading(const Eigen::VectorXd& direction) {
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  return largest >= kCameraParameterCount &&
+         (largest - kCameraParameterCount) % kLegParameterCount >= leg_parameter::kShading;
+}
+
 WeakDirection Describe(const std::string& text, double relative_sigma, const Eigen::VectorXd& relative,
                        const Eigen::VectorXd& sizes) {
   const Eigen::VectorXd normalised = relative / relative.cwiseAbs().maxCoeff();
@@ -171,8 +180,9 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
   Eigen::Index unknown = 0;
   while (unknown < count && sigma(unknown) > kUnknown) ++unknown;
   result.unobservable = NameUnobservable(problem, sizes, relative, zero, vectors.leftCols(unknown));
-  for (Eigen::Index i = unknown; i < std::min(unknown + kWeakDirectionsReported, count); ++i)
-    result.weak.push_back(Describe(LargestEntries(vectors.col(i)), sigma(i), vectors.col(i), sizes));
+  for (Eigen::Index i = unknown; i < count && result.weak.size() < kWeakDirectionsReported; ++i)
+    if (!IsMostlyShading(vectors.col(i)))
+      result.weak.push_back(Describe(LargestEntries(vectors.col(i)), sigma(i), vectors.col(i), sizes));
 
   const Eigen::MatrixXd known = sizes.asDiagonal() * vectors.rightCols(count - unknown);
   result.covariance = known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();

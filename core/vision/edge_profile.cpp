@@ -285,14 +285,6 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
   return kinked->squares / misfit + price * PriceOf(kinked->model) < of_best ? kinked : best;
 }
 
-PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const ProfileFitOptions& options) {
-  const ShadingBasis basis = BasisOf(fit.model, options);
-  Columns value = Columns::Zero(), slope = Columns::Zero();
-  basis.Evaluate(inside_px - fit.place_px, value, slope);
-  const Eigen::Index n = basis.size();
-  return {value.head(n).dot(fit.coefficients), slope.head(n).dot(fit.coefficients)};
-}
-
 std::vector<BrightnessParts> PredictParts(const ProfileFit& fit, const std::vector<double>& inside_px,
                                           const ProfileFitOptions& options) {
   const ShadingBasis basis = BasisOf(fit.model, options);

@@ -36,8 +36,10 @@ struct ProfileFitOptions {
   double inside_px = 6;
 };
 
-// Fits one model from a start, by Gauss-Newton on the place with the linear coefficients solved for. Nothing
-// where the profile does not cover the edge or the place runs out of the window.
+// Fits one model from a start, by Gauss-Newton on the place with the linear coefficients solved for. The
+// background's slope and kinks are held near zero, and light from everywhere near 25 grey levels, by priors
+// of the size that lit scenes show. Nothing where the profile does not cover the edge or the place runs out
+// of the window.
 std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel model, double start_px,
                                      const ProfileFitOptions& options);
 
@@ -58,15 +60,7 @@ double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const Pr
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options);
 
-// Brightness that a fit predicts at `inside_px`, and its slope by the place's shift (grey levels per px
-// outward).
-struct PredictedBrightness {
-  double value;
-  double d_outward;
-};
-PredictedBrightness Predict(const ProfileFit& fit, double inside_px, const ProfileFitOptions& options);
-
-// What of that is the background's and what the leg's.
+// What of the brightness that a fit predicts is the background's and what the leg's.
 struct BrightnessParts {
   double background;
   double leg;
