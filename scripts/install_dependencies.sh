@@ -21,6 +21,7 @@ nlohmann-json3-dev   writes JSON
 libcli11-dev         command line
 libfmt-dev           formatted text
 libtbb-dev           works on several images at a time
+zlib1g-dev           whether a PNG is whole
 libssl-dev           SHA-256 of a session, base64 of pictures
 libgtest-dev         tests
 libgmock-dev         tests

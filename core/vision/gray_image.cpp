@@ -1,5 +1,10 @@
 #include "core/vision/gray_image.h"
 
+#include <zlib.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,10 +18,39 @@ GrayImage FromMat(const cv::Mat& mat) {
   return image;
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+std::uint32_t BigEndian(const Bytes& bytes, size_t at) {
+  return static_cast<std::uint32_t>(bytes[at]) << 24 | static_cast<std::uint32_t>(bytes[at + 1]) << 16 |
+         static_cast<std::uint32_t>(bytes[at + 2]) << 8 | bytes[at + 3];
+}
+
+bool IsPng(const Bytes& bytes) {
+  constexpr std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  return bytes.size() >= 8 && std::memcmp(bytes.data(), kSignature, 8) == 0;
+}
+
+// Whether every chunk up to the end's is whole. libpng would print its own line to stderr where one is not.
+bool IsIntactPng(const Bytes& bytes) {
+  constexpr size_t kFrame = 12;  // of a chunk: length, type, checksum
+  for (size_t at = 8; at + kFrame <= bytes.size();) {
+    const size_t length = BigEndian(bytes, at);
+    if (length > bytes.size() - at - kFrame) return false;
+    const auto checksum = crc32(0, bytes.data() + at + 4, static_cast<uInt>(length + 4));
+    if (checksum != BigEndian(bytes, at + 8 + length)) return false;
+    if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
+    at += kFrame + length;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<GrayImage> ReadGrayImage(const std::filesystem::path& file) {
-  const cv::Mat mat = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  std::ifstream stream(file, std::ios::binary);
+  const Bytes bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (bytes.empty() || (IsPng(bytes) && !IsIntactPng(bytes))) return std::nullopt;
+  const cv::Mat mat = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
   if (mat.empty()) return std::nullopt;
   return FromMat(mat);
 }

@@ -1,0 +1,57 @@
+#include "core/vision/gray_image.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace legible {
+namespace {
+
+class GrayImageFile : public testing::Test {
+ protected:
+  GrayImageFile() {
+    std::ifstream stream(LEGIBLE_SOURCE_DIR "/datasets/hexapod/images/000.png", std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  ~GrayImageFile() override { std::filesystem::remove(file_); }
+
+  std::optional<GrayImage> ReadBack() const {
+    std::ofstream(file_, std::ios::binary).write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    return ReadGrayImage(file_);
+  }
+
+  const std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".png");
+  std::vector<char> bytes_;
+};
+
+TEST_F(GrayImageFile, IsReadWithItsSize) {
+  const auto image = ReadBack();
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 1280);
+  EXPECT_EQ(image->height, 960);
+  EXPECT_EQ(image->pixels.size(), 1280u * 960u);
+}
+
+// Wherever it is cut or changed: no image, and no line on stderr but this program's own.
+TEST_F(GrayImageFile, ThatIsDamagedIsNoImageAndPrintsNothing) {
+  const std::vector<char> whole = bytes_;
+  testing::internal::CaptureStderr();
+  for (const size_t length : {size_t{0}, size_t{7}, size_t{20}, whole.size() / 2, whole.size() - 1}) {
+    bytes_.assign(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+    EXPECT_FALSE(ReadBack()) << length;
+  }
+  for (const size_t place : {size_t{9}, size_t{17}, size_t{40}, whole.size() / 3, whole.size() - 20}) {
+    bytes_ = whole;
+    bytes_[place] = static_cast<char>(bytes_[place] ^ 0x55);
+    EXPECT_FALSE(ReadBack()) << place;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(GrayImageFile, ThatIsNotThereIsNoImage) { EXPECT_FALSE(ReadGrayImage(file_ / "none.png")); }
+
+}  // namespace
+}  // namespace legible
