@@ -65,7 +65,7 @@ std::string TagSentence(const Session& session, const TagCheck& check) {
   for (const TagGroup& group : session.tags->groups)
     if (group.name == check.group) on_platform = group.carrier == TagCarrier::kPlatform;
   const std::string predicted =
-      on_platform ? "the joint readings alone and the model put them" : "the model puts them";
+      check.by_readings ? "the joint readings alone and the model put them" : "the model puts them";
   return fmt::format(
       "tags {} on the {}, seen in {} images, lie within {:.3f} mm ({:.3f} px) rms of where {}, their own "
       "place on it "

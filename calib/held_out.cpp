@@ -134,6 +134,7 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
       for (size_t k = 0; k < sightings[i].corners_px.size(); ++k) {
         const Eigen::Vector3d in_carrier = carrier_from_group * sightings[i].corners_in_group_m[k];
         const Eigen::Vector3d x = camera_from_carrier[i] * in_carrier;
+        if (x.z() <= 0) return std::nullopt;
         const Eigen::Vector2d error = Project(camera, x) - sightings[i].corners_px[k];
         px.Add(error);
         metres.Add(error * x.z() / camera.fx_px);

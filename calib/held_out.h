@@ -32,7 +32,8 @@ struct GroupCheck {
 
 // How far a group's corners are from where the model puts them. The group's place on its carrier is known
 // roughly at best: the one that suits all images together is found first (camera_from_carrier: of each image,
-// as the model predicts it). Nothing unless the group was seen in two images.
+// as the model predicts it). Nothing unless the group was seen in two images, and where the
+// model puts a corner behind the camera.
 std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera,
                                      const std::vector<GroupSighting>& sightings,
                                      const std::vector<Rigid3>& camera_from_carrier);

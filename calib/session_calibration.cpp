@@ -286,20 +286,28 @@ class SessionCalibrator {
   }
 
   void CheckTags(const std::vector<size_t>& used) {
+    const bool by_readings = options_.estimation.use_joint_readings;
     for (const TagGroup& group : session_.tags->groups) {
+      const bool on_platform = group.carrier == TagCarrier::kPlatform;
+      if (on_platform && !options_.estimation.rigid_platform) continue;
       std::vector<GroupSighting> sightings;
       std::vector<Rigid3> camera_from_carrier;
       for (size_t k = 0; k < used.size(); ++k) {
+        if (!result_.images[used[k]].left_out.empty()) continue;
         sightings.push_back(Match(group, result_.images[used[k]].tags));
-        const bool on_base = group.carrier == TagCarrier::kBase;
-        // The platform's pose by the readings alone: what the robot would be sent to.
-        camera_from_carrier.push_back(on_base ? prediction_.camera_from_base
-                                              : prediction_.camera_from_base *
-                                                    prediction_.base_from_platform[used[k]]);
+        camera_from_carrier.push_back(on_platform ? PlatformPose(k, used[k], by_readings)
+                                                  : prediction_.camera_from_base);
       }
       if (const auto check = CheckGroup(group, prediction_.camera, sightings, camera_from_carrier))
-        result_.tag_checks.push_back({group.name, check->images, check->rms_px, check->rms_m});
+        result_.tag_checks.push_back(
+            {group.name, on_platform && by_readings, check->images, check->rms_px, check->rms_m});
     }
+  }
+
+  // By the readings alone, which is what the robot would be sent to; without readings as the edges have it.
+  Rigid3 PlatformPose(size_t in_estimation, size_t image, bool by_readings) const {
+    return by_readings ? prediction_.camera_from_base * prediction_.base_from_platform[image]
+                       : result_.calibration.camera_from_platform[in_estimation];
   }
 
   const Session& session_;

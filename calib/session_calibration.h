@@ -40,6 +40,7 @@ struct ImageOutcome {
 // Tags on the base or platform, predicted by the calibrated model, against where they were seen.
 struct TagCheck {
   std::string group;
+  bool by_readings = false;  // the platform's poses came from the joint readings alone, not from the fit
   int images = 0;
   double rms_px = 0;  // corners, after the group's own place on its carrier was fitted over all images
   double rms_m = 0;   // the same, across the line of sight at the tags' distance
