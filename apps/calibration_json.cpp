@@ -71,7 +71,7 @@ ordered_json LegsJson(const FoundParameters& found) {
 ordered_json LeftOutJson(const CalibrationRun& run) {
   ordered_json left_out = ordered_json::array();
   for (const ImageOutcome& image : run.result.images)
-    if (const std::string reason = WhyLeftOut(image); !reason.empty())
+    if (const std::string reason = image.left_out; !reason.empty())
       left_out.push_back({{"name", image.name}, {"reason", reason}});
   for (const std::string& name : run.session.unlisted_images)
     left_out.push_back({{"name", name}, {"reason", "has no row in joints.csv"}});

@@ -24,15 +24,9 @@ std::string SessionPath(const CalibrationRun& run) {
   return std::filesystem::absolute(run.settings.session).lexically_normal().string();
 }
 
-std::string WhyLeftOut(const ImageOutcome& image) {
-  if (!image.left_out.empty()) return image.left_out;
-  const bool any = std::any_of(image.edges.edges.begin(), image.edges.edges.end(), IsUsed);
-  return any ? "" : "none of its edges could be measured";
-}
-
 int CountUsedImages(const SessionCalibration& result) {
   return static_cast<int>(std::count_if(result.images.begin(), result.images.end(),
-                                        [](const ImageOutcome& image) { return WhyLeftOut(image).empty(); }));
+                                        [](const ImageOutcome& image) { return image.left_out.empty(); }));
 }
 
 int CountUsedEdges(const SessionCalibration& result) {
@@ -56,7 +50,7 @@ std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run) {
   if (!run.options.estimation.rigid_platform || found.empty()) return poses;
   const std::vector<size_t> images = ImagesOfEstimation(run.result);
   for (size_t k = 0; k < images.size(); ++k)
-    if (WhyLeftOut(run.result.images[images[k]]).empty()) poses[images[k]] = found.at(k);
+    if (run.result.images[images[k]].left_out.empty()) poses[images[k]] = found.at(k);
   return poses;
 }
 

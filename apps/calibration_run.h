@@ -22,9 +22,6 @@ struct CalibrationRun {
 // The session's folder as an absolute path, for those who read the results elsewhere.
 std::string SessionPath(const CalibrationRun& run);
 
-// Why an image was not used; empty: it was.
-std::string WhyLeftOut(const ImageOutcome& image);
-
 int CountUsedImages(const SessionCalibration& result);
 int CountUsedEdges(const SessionCalibration& result);
 

@@ -148,7 +148,7 @@ std::string WhyThereIsNoModel(const CalibrationRun& run) {
 std::string WarningsText(const CalibrationRun& run) {
   std::string text;
   for (size_t i = 0; i < run.result.images.size(); ++i)
-    if (const std::string reason = WhyLeftOut(run.result.images[i]); !reason.empty())
+    if (const std::string reason = run.result.images[i].left_out; !reason.empty())
       text +=
           fmt::format("legible: warning: {}: left out: {}\n", run.session.images[i].file.string(), reason);
   if (!run.session.unlisted_images.empty())

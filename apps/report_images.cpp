@@ -101,7 +101,7 @@ PredictedEdges Predict(const LegCalibration& calibration, const std::optional<Ri
 }
 
 json ImageJson(const ImageOutcome& image, const Residuals& residuals, const PredictedEdges& predicted) {
-  const std::string left_out = WhyLeftOut(image);
+  const std::string left_out = image.left_out;
   json edges = json::array();
   for (const LegEdge& edge : image.edges.edges)
     edges.push_back(EdgeJson(edge, image.edges.blur_px, residuals, predicted));

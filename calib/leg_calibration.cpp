@@ -391,6 +391,16 @@ void CheckInput(const LegCalibrationInput& input) {
     }
 }
 
+LegCalibration WithoutEstimate(CalibrationStatus status, const std::string& message) {
+  LegCalibration result;
+  result.status = status;
+  result.message = message;
+  result.base_joints_in_camera_m.fill(Eigen::Vector3d::Zero());
+  result.drawn_base_joints_m.fill(Eigen::Vector3d::Zero());
+  result.shading_px.fill(Eigen::Vector4d::Zero());
+  return result;
+}
+
 }  // namespace
 
 void LegCalibrationOptions::Check() const {
@@ -418,19 +428,14 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
   options.Check();
   CheckInput(input);
   Calibrator calibrator(input, options);
-  if (!calibrator.HasEnough()) {
-    LegCalibration result;
-    result.status = CalibrationStatus::kTooFewObservations;
-    result.message = "fewer observations than unknowns: add images, or say what is known beforehand";
-    return result;
-  }
+  if (!calibrator.HasEnough())
+    return WithoutEstimate(CalibrationStatus::kTooFewObservations,
+                           "fewer observations than unknowns: add images, or say what is known beforehand");
   const bool settled = calibrator.Run();
-  if (!calibrator.CanEvaluate()) {
-    LegCalibration result;
-    result.message =
-        "the estimate ran into a robot whose legs the camera could not see: the first guess is too far off";
-    return result;
-  }
+  if (!calibrator.CanEvaluate())
+    return WithoutEstimate(
+        CalibrationStatus::kNotConverged,
+        "the estimate ran into a robot whose legs the camera could not see: the first guess is too far off");
   LegCalibration result = calibrator.Result();
   if (!result.observability.unobservable.empty()) {
     result.status = CalibrationStatus::kUnobservable;

@@ -101,7 +101,7 @@ struct NoiseSums {
   }
 };
 
-constexpr int kFewestSamplesForALine = 4;
+constexpr int kFewestSamplesForALine = 3;
 
 bool HasLine(const EdgeResidualSet& edge) { return edge.weight.sum() >= kFewestSamplesForALine; }
 
@@ -200,6 +200,7 @@ void UpdateWeights(std::vector<EdgeResidualSet>& edges, const NoiseByEdge& noise
   for (EdgeResidualSet& edge : edges) {
     const EdgeNoise& own = noise[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
     Eigen::ArrayXd left = edge.residual_px;
+    edge.common_weight = 1;
     if (edge.common_sigma_px > 0 && HasLine(edge)) {
       const Eigen::Vector2d common =
           Eigen::Array2d(own.shift, own.tilt).square() * std::pow(edge.common_sigma_px, 2);

@@ -39,6 +39,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// The camera with another lens model: coefficients that the model lacks are 0.
+Camera WithLens(Camera camera, LensModel lens) {
+  camera.lens = lens;
+  camera.distortion.tail(camera.distortion.size() - static_cast<Eigen::Index>(lens)).setZero();
+  return camera;
+}
+
 // What the next search for edges starts from.
 struct Prediction {
   Camera camera;
@@ -52,7 +59,7 @@ class SessionCalibrator {
   SessionCalibrator(const Session& session, const SessionCalibrationOptions& options)
       : session_(session), options_(options), count_(session.images.size()) {
     prediction_.camera = session.camera;
-    if (options.lens) prediction_.camera.lens = *options.lens;
+    if (options.lens) prediction_.camera = WithLens(prediction_.camera, *options.lens);
     drawn_camera_ = prediction_.camera;
     prediction_.robot = session.robot;
     result_.images.resize(count_);
@@ -76,7 +83,9 @@ class SessionCalibrator {
       Solve();
       result_.times.solve_s += lap.Lap();
     }
-    if (result_.calibration.status == CalibrationStatus::kConverged) CheckResult();
+    for (size_t i = 0; i < count_; ++i)
+      if (!Left(i)) FinishImage(result_.images[i]);
+    if (Usable()) CheckResult();
     result_.times.held_out_s = lap.Lap();
     result_.times.covariance_s = result_.calibration.covariance_s;
     result_.times.solve_s -= result_.times.covariance_s;
@@ -250,7 +259,7 @@ class SessionCalibrator {
   void Solve() {
     if (options_.progress) options_.progress("solving", 0, 1);
     result_.calibration = CalibrateLegs(Input(All()), options_.estimation);
-    if (result_.calibration.base_joints_in_camera_m[0].norm() > 0) Adopt(result_.calibration);
+    if (Usable()) Adopt(result_.calibration);
   }
 
   void CheckResult() {
@@ -259,7 +268,6 @@ class SessionCalibrator {
     for (size_t i = 0; i < count_; ++i)
       if (!Left(i)) used.push_back(i);
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
-    for (size_t i : used) FinishImage(result_.images[i]);
     if (options_.folds > 1) {
       const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
                                              FoldsOf(used.size(), options_.folds, options_.seed));

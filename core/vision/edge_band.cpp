@@ -146,6 +146,7 @@ std::vector<Levels> Smoothed(const std::vector<BandCell>& cells, const std::vect
   return smooth;
 }
 
+constexpr double kLeastLevel = 5;  // grey levels: below, nothing is in proportion to it
 constexpr double kTableFrom_px = -10, kTableTo_px = 10, kTableStep_px = 1.0 / 8;
 
 std::vector<double> TablePlaces() {
@@ -163,7 +164,7 @@ LevelShape::LevelShape() {
   }
 }
 
-LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) {
+LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) : LevelShape() {
   const std::vector<double> places = TablePlaces();
   const std::vector<BrightnessParts> parts = PredictParts(fit, places, options);
   // Against the mean over the distances from which levels are read.
@@ -173,6 +174,8 @@ LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) 
     if (x >= kBackgroundFrom && x <= kBackgroundTo) background.Add(parts[i].background);
     if (x >= kLegFrom && x <= kLegTo) leg.Add(parts[i].leg);
   }
+  if (std::min(std::abs(background.Mean()), std::abs(leg.Mean())) < kLeastLevel) return;
+  table_.clear();
   for (const BrightnessParts& at : parts)
     table_.push_back(
         {static_cast<float>(at.background / background.Mean()), static_cast<float>(at.leg / leg.Mean())});

@@ -202,7 +202,7 @@ std::optional<ProfileFit> Fit(Linearisation& at, ShadingModel model, const Coeff
     if (at.bins() < n + 4) return std::nullopt;
     if (!coefficients) coefficients = at.BestCoefficients(prior);
     const Linearisation::Step step = at.StepFrom(*coefficients, prior);
-    if (!step.change.allFinite()) return std::nullopt;
+    if (!step.change.allFinite() || !(step.place_variance > 0)) return std::nullopt;
     const double moved = std::clamp(step.change[n], -kLongestStep_px, kLongestStep_px);
     place += moved;
     if (std::abs(place - start.place_px) > options.inside_px / 2) return std::nullopt;

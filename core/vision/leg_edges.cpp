@@ -24,7 +24,9 @@ constexpr double kLeastGreyNoise = 0.5;           // quantisation alone leaves 0
 // Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
 // place by its share of the contrast.
 constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
-constexpr double kFirstBlur_px = 0.75;
+constexpr double kFirstBlur_px = 0.75, kLastBlurStep_px = 0.05;
+constexpr double kPlainBlurStep_px = 0.1, kFirstBlurStep_px = 0.15;
+constexpr int kMostBlurRounds = 30;
 constexpr const char* kNoEdge = "no edge in the brightness across it";
 
 // One edge on its way through the stages.
@@ -57,6 +59,12 @@ void CollectProfile(const GrayImage& image, double place_px, const LevelShape& s
 void FitAt(double blur_px, Work& work) {
   work.fit_options.blur_px = blur_px;
   work.fit = FitSimplestModel(work.profile, 0, work.fit_options);
+}
+
+// Keeps the fit where a plain edge is not to be had.
+void FitAsPlain(double blur_px, Work& work) {
+  work.fit_options.blur_px = blur_px;
+  if (const auto plain = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options)) work.fit = plain;
 }
 
 // The blur at which the profiles of all edges together fit best, by the parabola through three neighbouring
@@ -103,7 +111,7 @@ void SampleStretch(size_t first, size_t last, Work& work) {
   if ((last - first) % 2 == 0)  // an even number of cells: their middle is the end of a cell
     centre = (centre + work.band.cells[(first + last) / 2 - 1].centre_px) / 2;
   const double sigma_px = std::hypot(fit->sigma_px, kStretchMisfit / fit->contrast);
-  if (sigma_px > kLargestStretchSigma_px) return;
+  if (!(sigma_px <= kLargestStretchSigma_px)) return;
   work.result->observation.samples.push_back(
       {centre - fit->place_px * cell.normal_px, cell.normal_px, sigma_px});
 }
@@ -142,7 +150,7 @@ void Judge(const LegEdgeOptions& options, Work& work) {
   LegEdge& edge = *work.result;
   if (std::abs(edge.contrast) < options.least_contrast)
     edge.left_out = fmt::format("contrast of only {:.0f} grey levels", std::abs(edge.contrast));
-  else if (edge.observation.common_sigma_px > options.largest_common_sigma_px)
+  else if (!(edge.observation.common_sigma_px <= options.largest_common_sigma_px))
     edge.left_out =
         fmt::format("its shading leaves its place open by {:.2f} px", edge.observation.common_sigma_px);
   else if (edge.observation.samples.size() < 3)
@@ -241,26 +249,30 @@ class Measurement {
     if (!work.fit) work.result->left_out = kNoEdge;
   }
 
+  template <typename F>
+  void ForEachFit(F refit) {
+    for (Work& work : works_)
+      if (!work.Dropped() && work.fit) refit(work);
+  }
+
+  // Improves the blur, the edges fitted again each time, by ever smaller steps.
+  double Settle(double blur, double step, void (*refit)(double, Work&)) {
+    ForEachFit([&](Work& work) { refit(blur, work); });
+    for (int round = 0; round < kMostBlurRounds && step > kLastBlurStep_px; ++round) {
+      const double before = blur;
+      blur = BlurSearch(works_).Improve(blur, step);
+      ForEachFit([&](Work& work) { refit(blur, work); });
+      if (std::abs(blur - before) < step / 2) step *= 0.6;
+    }
+    return blur;
+  }
+
   // In turn with the edges' models, for at a wrong blur a plain edge looks shaded; as if all were plain to
   // begin with, for a shaded edge's model would follow a wrong blur.
   double FindBlur() {
     if (!AnyLeft()) return 0;
-    double blur = kFirstBlur_px;
-    const auto improve = [&](double step_px, auto refit) {
-      blur = BlurSearch(works_).Improve(blur, step_px);
-      for (Work& work : works_)
-        if (!work.Dropped() && work.fit) refit(work);
-    };
-    const auto as_plain = [&](Work& work) {
-      work.fit_options.blur_px = blur;
-      if (const auto plain = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options))
-        work.fit = plain;
-    };
-    const auto by_its_model = [&](Work& work) { FitAt(blur, work); };
-    improve(0.15, as_plain);
-    improve(0.1, by_its_model);
-    improve(0.08, by_its_model);
-    return blur;
+    const double blur = Settle(kFirstBlur_px, kPlainBlurStep_px, FitAsPlain);
+    return Settle(blur, kFirstBlurStep_px, FitAt);
   }
 
   bool AnyLeft() const {

@@ -32,11 +32,6 @@ struct Profile {
 };
 using LegProfiles = std::vector<Profile>;
 
-struct Score {
-  double sum = 0;
-  int supporting = 0;  // profiles with a clear pair of edges
-};
-
 class ProfileTable {
  public:
   // polarity +1: legs brighter than what is behind them, -1: darker.

@@ -70,8 +70,8 @@ Prediction Predict(const Edge& edge, std::mt19937_64& generator) {
   return prediction;
 }
 
-// What MeasureLegEdges does with a traced edge: offset of the found edge outward from the prediction's
-// middle.
+// What MeasureLegEdges does with a traced edge, once, in a wider window: offset of the found edge outward
+// from the prediction's middle.
 double OffsetByBand(const GrayImage& image, const Prediction& prediction) {
   EdgeBand band = CollectBand(image, prediction.points, kOutside_px + 1, kInside_px + 1);
   Flatten(band, 0, LevelShape());

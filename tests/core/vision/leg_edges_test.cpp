@@ -134,6 +134,19 @@ std::string NameOfLens(const testing::TestParamInfo<bool>& is_distorted) {
 
 INSTANTIATE_TEST_SUITE_P(Lenses, LegEdgesThroughLens, testing::Values(false, true), NameOfLens);
 
+TEST(LegEdges, ShareTheBlurOfTheirImage) {
+  std::mt19937_64 generator = TestGenerator();
+  const Scene scene(true);
+  for (const double blur_px : {0.5, 0.8, 1.5, 2.5}) {
+    RenderOptions options;
+    options.blur_px = blur_px;
+    const GrayImage image = WithNoise(RenderLegs(scene.Legs(), scene.camera, options), kNoise, generator);
+    const LegEdges found = MeasureLegEdges(image, scene.Legs(), scene.camera, WithoutLock());
+    EXPECT_NEAR(found.blur_px / blur_px, 1, 0.05) << blur_px;
+    EXPECT_GE(MeasuredCount(found), 6) << blur_px;
+  }
+}
+
 TEST(LegEdges, AMissingLegIsLeftOutWithAReason) {
   std::mt19937_64 generator = TestGenerator();
   const Scene scene(true);
@@ -161,6 +174,7 @@ TEST(LegEdges, ALegThatSomethingCoversIsMeasuredRightOrNotAtAll) {
           image.grey[static_cast<size_t>(y * image.width + x)] = 120;
     const LegEdges found =
         MeasureLegEdges(WithNoise(image, kNoise, generator), legs, scene.camera, WithoutLock());
+    EXPECT_GE(MeasuredCount(found), 6) << covered + 1;
     for (const LegEdge& edge : found.edges)
       if (edge.left_out.empty()) {
         EXPECT_LT(ErrorsOf(edge, legs, scene.camera).largest_px, 0.1)
