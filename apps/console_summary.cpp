@@ -75,6 +75,7 @@ struct LegRow {
 
 std::vector<LegRow> LegRows() {
   std::vector<LegRow> rows;
+  rows.reserve(8);
   const char* const a_labels[] = {"A x  mm", "A y  mm", "A z  mm"};
   const char* const b_labels[] = {"B x  mm", "B y  mm", "B z  mm"};
   for (int i = 0; i < 3; ++i)

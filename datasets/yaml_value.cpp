@@ -35,9 +35,9 @@ std::string KindOf(const YAML::Node& node) {
 
 }  // namespace
 
-YamlValue::YamlValue(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string keys,
-                     int line)
-    : node_(std::move(node)), file_(std::move(file)), keys_(std::move(keys)), line_(line) {}
+YamlValue::YamlValue(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file,
+                     std::string keys, int line)
+    : node_(node), file_(std::move(file)), keys_(std::move(keys)), line_(line) {}
 
 YamlValue YamlValue::LoadFile(const std::filesystem::path& file) {
   const std::vector<YAML::Node> documents = LoadDocuments(file);

@@ -48,7 +48,8 @@ class YamlValue {
   [[noreturn]] void Fail(const std::string& what_is_wrong, const std::string& what_to_do) const;
 
  private:
-  YamlValue(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string keys, int line);
+  YamlValue(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string keys,
+            int line);
   YamlValue Child(const YAML::Node& child, const std::string& keys, int fallback_line) const;
   void DemandMap() const;
   Eigen::Quaterniond Rotation() const;

@@ -54,7 +54,7 @@ class ProfileTable {
     if (count < 2) return;
     for (int i = 0; i < kProfiles; ++i) {
       const double share = 0.08 + 0.84 * i / (kProfiles - 1);
-      const size_t at = static_cast<size_t>(share * static_cast<double>(count - 1) + 0.5);
+      const auto at = static_cast<size_t>(std::lround(share * static_cast<double>(count - 1)));
       const PredictedEdgePoint &first = edges[0].points[at], &second = edges[1].points[at];
       Profile profile{(first.point_px + second.point_px) / 2, second.normal_px, share, {}};
       const double half_width = std::abs(second.normal_px.dot(second.point_px - first.point_px)) / 2;
