@@ -33,7 +33,7 @@ std::vector<double> MatrixFromYaml(const YamlValue& section) {
   section.AllowKeys({"rows", "cols", "data"});
   const int rows = section.Get("rows").Integer();
   const int columns = section.Get("cols").Integer();
-  const std::vector<double> values = section.Get("data").Numbers();
+  std::vector<double> values = section.Get("data").Numbers();
   if (static_cast<double>(rows) * columns != static_cast<double>(values.size())) {
     section.Fail(fmt::format("has {} values for {} rows and {} cols", values.size(), rows, columns),
                  "give rows times cols values");

@@ -37,6 +37,7 @@ PriorKnowledge KnownFromYaml(const YamlValue& section) {
   PriorKnowledge known;
   if (section.IsNull()) return known;
   std::vector<std::string> names;
+  names.reserve(std::size(kKnownFields));
   for (const auto& [name, field] : kKnownFields) names.push_back(name);
   section.AllowKeys(names);
   for (const auto& [name, field] : kKnownFields) {
@@ -55,7 +56,7 @@ std::string KnownToYaml(const PriorKnowledge& known) {
 }
 
 std::filesystem::path NamedFile(const std::filesystem::path& folder, const YamlValue& value) {
-  const std::filesystem::path file = folder / value.Text();
+  std::filesystem::path file = folder / value.Text();
   if (!std::filesystem::is_regular_file(file)) {
     value.Fail(fmt::format("names {}, which is no file", file.string()),
                "give a path relative to the session's folder");
@@ -64,7 +65,7 @@ std::filesystem::path NamedFile(const std::filesystem::path& folder, const YamlV
 }
 
 std::filesystem::path NamedFolder(const std::filesystem::path& folder, const YamlValue& value) {
-  const std::filesystem::path named = folder / value.Text();
+  std::filesystem::path named = folder / value.Text();
   if (!std::filesystem::is_directory(named)) {
     value.Fail(fmt::format("names {}, which is no folder", named.string()),
                "give a path relative to the session's folder");
@@ -127,7 +128,7 @@ std::filesystem::path SessionYamlIn(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(folder, 0, "is no folder", "give the folder that holds the session.yaml");
   }
-  const std::filesystem::path file = folder / "session.yaml";
+  std::filesystem::path file = folder / "session.yaml";
   if (!std::filesystem::exists(file)) {
     throw InputError(folder, 0, "holds no session.yaml", "give the folder of a session");
   }

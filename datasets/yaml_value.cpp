@@ -116,7 +116,7 @@ std::vector<YamlValue> YamlValue::List() const {
 }
 
 std::vector<YamlValue> YamlValue::List(size_t size) const {
-  const std::vector<YamlValue> values = List();
+  std::vector<YamlValue> values = List();
   if (values.size() != size) Fail(fmt::format("has {} values", values.size()), fmt::format("give {}", size));
   return values;
 }
