@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/vision/median.h"
+
 namespace legible {
 namespace {
 
@@ -185,9 +187,7 @@ double MedianScale(const std::vector<EdgeResidualSet>& edges) {
     for (Eigen::Index i = 0; i < edge.residual_px.size(); ++i)
       sizes.push_back(std::abs(edge.residual_px[i] / edge.sigma_px[i]));
   if (sizes.empty()) return 1;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return std::max(1.4826 * *middle, kLeastScale);
+  return std::max(1.4826 * MedianOf(std::move(sizes)), kLeastScale);
 }
 
 NoiseByEdge EstimateNoise(const std::vector<EdgeResidualSet>& edges, double parameters) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vision/median.h"
+
 namespace legible {
 namespace {
 
@@ -90,12 +92,6 @@ Levels LevelsOf(const EdgeBand& band, const BandCell& cell, double place_px) {
   return levels;
 }
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Where the background or the leg changes within a few pixels along the edge (the horizon behind it, a
 // shadow's border across it), it changes across the edge as well, unseen.
 bool JumpsAt(const EdgeBand& band, const std::vector<Levels>& levels, size_t i, double largest) {
@@ -164,7 +160,7 @@ LevelShape::LevelShape() {
   }
 }
 
-LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) : LevelShape() {
+LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) {
   const std::vector<double> places = TablePlaces();
   const std::vector<BrightnessParts> parts = PredictParts(fit, places, options);
   // Against the mean over the distances from which levels are read.
@@ -174,8 +170,10 @@ LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) 
     if (x >= kBackgroundFrom && x <= kBackgroundTo) background.Add(parts[i].background);
     if (x >= kLegFrom && x <= kLegTo) leg.Add(parts[i].leg);
   }
-  if (std::min(std::abs(background.Mean()), std::abs(leg.Mean())) < kLeastLevel) return;
-  table_.clear();
+  if (std::min(std::abs(background.Mean()), std::abs(leg.Mean())) < kLeastLevel) {
+    *this = LevelShape();
+    return;
+  }
   for (const BrightnessParts& at : parts)
     table_.push_back(
         {static_cast<float>(at.background / background.Mean()), static_cast<float>(at.leg / leg.Mean())});

@@ -10,6 +10,7 @@
 #include "core/vision/edge_curve.h"
 #include "core/vision/edge_line.h"
 #include "core/vision/edge_profile.h"
+#include "core/vision/median.h"
 #include "core/vision/rough_trace.h"
 
 namespace legible {
@@ -67,34 +68,26 @@ void FitAsPlain(double blur_px, Work& work) {
   if (const auto plain = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options)) work.fit = plain;
 }
 
-// The blur at which the profiles of all edges together fit best, by the parabola through three neighbouring
-// misfits.
-class BlurSearch {
- public:
-  explicit BlurSearch(const std::vector<Work>& works) : works_(works) {}
-
-  double Improve(double blur, double step) const {
-    const double low = SquaresAt(blur - step), mid = SquaresAt(blur), high = SquaresAt(blur + step);
-    const double curvature = low - 2 * mid + high;
-    const double steps = curvature <= 0 ? (low < high ? -1 : 1) : 0.5 * (low - high) / curvature;
-    return std::clamp(blur + step * std::clamp(steps, -1.5, 1.5), 0.3, 4.0);
+// Squares of all edges at a blur, each in proportion to how well its model fits it.
+double SquaresAt(double blur_px, const std::vector<Work>& works) {
+  double sum = 0;
+  for (const Work& work : works) {
+    if (work.Dropped() || !work.fit) continue;
+    ProfileFitOptions options = work.fit_options;
+    options.blur_px = std::max(blur_px, 0.1);
+    sum += SquaresAtBlur(work.profile, *work.fit, options) / std::max(work.fit->chi2_per_bin, 1.0);
   }
+  return sum;
+}
 
- private:
-  // Of all edges, each in proportion to how well its model fits it.
-  double SquaresAt(double blur) const {
-    double sum = 0;
-    for (const Work& work : works_) {
-      if (work.Dropped() || !work.fit) continue;
-      ProfileFitOptions options = work.fit_options;
-      options.blur_px = std::max(blur, 0.1);
-      sum += SquaresAtBlur(work.profile, *work.fit, options) / std::max(work.fit->chi2_per_bin, 1.0);
-    }
-    return sum;
-  }
-
-  const std::vector<Work>& works_;
-};
+// Towards the blur at which all edges together fit best, by the parabola through three neighbouring misfits.
+double ImprovedBlur(double blur_px, double step_px, const std::vector<Work>& works) {
+  const double low = SquaresAt(blur_px - step_px, works), mid = SquaresAt(blur_px, works),
+               high = SquaresAt(blur_px + step_px, works);
+  const double curvature = low - 2 * mid + high;
+  const double steps = curvature <= 0 ? (low < high ? -1 : 1) : 0.5 * (low - high) / curvature;
+  return std::clamp(blur_px + step_px * std::clamp(steps, -1.5, 1.5), 0.3, 4.0);
+}
 
 // ---- Samples: the place of each stretch, from its own profile.
 
@@ -122,9 +115,7 @@ void DropDisturbedSamples(std::vector<EdgeSample>& samples) {
   std::vector<double> sigmas;
   sigmas.reserve(samples.size());
   for (const EdgeSample& sample : samples) sigmas.push_back(sample.sigma_px);
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  const double largest = kLargestRelativeSigma * *middle;
+  const double largest = kLargestRelativeSigma * MedianOf(std::move(sigmas));
   std::erase_if(samples, [&](const EdgeSample& sample) { return sample.sigma_px > largest; });
 }
 
@@ -235,8 +226,7 @@ class Measurement {
     for (const Work& work : works_)
       if (!work.Dropped()) noises.push_back(GreyNoise(work.band));
     if (noises.empty()) return 0;
-    std::sort(noises.begin(), noises.end());
-    return std::max(noises[noises.size() / 2], kLeastGreyNoise);
+    return std::max(MedianOf(std::move(noises)), kLeastGreyNoise);
   }
 
   void FitFirst(double blur_px, Work& work) const {
@@ -260,7 +250,7 @@ class Measurement {
     ForEachFit([&](Work& work) { refit(blur, work); });
     for (int round = 0; round < kMostBlurRounds && step > kLastBlurStep_px; ++round) {
       const double before = blur;
-      blur = BlurSearch(works_).Improve(blur, step);
+      blur = ImprovedBlur(blur, step, works_);
       ForEachFit([&](Work& work) { refit(blur, work); });
       if (std::abs(blur - before) < step / 2) step *= 0.6;
     }
