@@ -78,7 +78,11 @@ CalibrationRun Load(const CalibrateSettings& settings) {
   DemandPlaceOfCamera(run.session);
   DemandSomeImage(run.session);
   run.session.known = WithSettings(run.session.known, settings);
-  run.options = ToOptions(settings, run.session.known);
+  try {
+    run.options = ToOptions(settings, run.session);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(run.session.folder, 0, "cannot be calibrated with these --tags", error.what());
+  }
   run.content_hash = ContentHash(run.session);
   return run;
 }

@@ -21,7 +21,8 @@ constexpr char kFooter[] = R"(A session is a folder with
                  (camera_from_base, by tape measure), unless tags on the base say that
   joints.csv     image,q1_m,...,q6_m: the joint readings of each image
   images/        some forty images in clearly different poses, the camera not moved in between
-  tags.yaml      optional: AprilTags on the base or the platform
+  tags.yaml      optional: AprilTags on the base or the platform; they check the result, and with --tags
+                 take part in it
 
 Written to the folder of --out, all together at the end:
   model.yaml         the calibrated robot and camera with their covariance, for the other commands
@@ -113,9 +114,18 @@ void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
       ->type_name("NAME=SIGMA")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command
+      .add_option(
+          "--tags", settings.tags,
+          "Tag groups of tags.yaml whose corners count as\nobservations, or all; without it they only "
+          "place\nthe camera at first and check the result. Comma\nseparated or repeated")
+      ->type_name("GROUP")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command.add_flag_callback(
       "--no-readings", [&settings] { settings.use_readings = false; },
-      "Leave the joint readings out. Where nothing known\nor held then sets a scale, as with --free-legs");
+      "Leave the joint readings out of the estimate (they\nstill say where to look for the legs). Where "
+      "nothing\nknown, held or shown by --tags then sets a scale,\nas with --free-legs");
   command.add_flag(
       "--free-legs", settings.free_legs,
       "Edges only: no readings, no rigid platform (each\nleg's direction is free in each image), and "

@@ -63,8 +63,8 @@ bool UsesReadings(const CalibrateSettings& settings) { return settings.use_readi
 // Whether something but the readings says how large the robot is.
 bool KnowsASize(const CalibrateSettings& settings, const PriorKnowledge& known) {
   const HeldParameters held = HeldBy(settings);
-  return known.radius_m || known.base_joint_m || known.platform_joint_m || held.radii || held.base_joints ||
-         held.platform_joints;
+  return !settings.tags.empty() || known.radius_m || known.base_joint_m || known.platform_joint_m ||
+         held.radii || held.base_joints || held.platform_joints;
 }
 
 }  // namespace
@@ -124,8 +124,34 @@ std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowled
          (settings.free_legs ? "." : ", for without joint readings nothing known sets their scale.");
 }
 
-SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known) {
+std::set<std::string> TagGroupsOf(const CalibrateSettings& settings, const Session& session) {
+  std::set<std::string> groups;
+  std::vector<std::string> names;
+  const std::vector<TagGroup> there = session.tags ? session.tags->groups : std::vector<TagGroup>();
+  const bool all = std::find(settings.tags.begin(), settings.tags.end(), "all") != settings.tags.end();
+  for (const TagGroup& group : there) {
+    names.push_back(group.name);
+    const bool named =
+        std::find(settings.tags.begin(), settings.tags.end(), group.name) != settings.tags.end();
+    const bool of_no_use = settings.free_legs && group.carrier == TagCarrier::kPlatform;
+    if (named && of_no_use)
+      throw std::invalid_argument(fmt::format(
+          "\"{}\" is on the platform, which with --free-legs is not taken to be rigid", group.name));
+    if (named || (all && !of_no_use)) groups.insert(group.name);
+  }
+  for (const std::string& name : settings.tags)
+    if (name != "all" && !groups.contains(name))
+      throw std::invalid_argument(names.empty() ? "the session has no tags"
+                                                : fmt::format("\"{}\" is none of the session's groups {}",
+                                                              name, fmt::join(names, ", ")));
+  if (all && there.empty()) throw std::invalid_argument("the session has no tags");
+  return groups;
+}
+
+SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const Session& session) {
   SessionCalibrationOptions options;
+  const PriorKnowledge& known = session.known;
+  options.tag_groups = TagGroupsOf(settings, session);
   options.estimation.use_joint_readings = UsesReadings(settings);
   options.estimation.rigid_platform = AssumesRigidPlatform(settings, known);
   options.estimation.hold = HeldBy(settings);
@@ -143,6 +169,7 @@ std::string OptionsText(const CalibrateSettings& settings) {
   if (!settings.hold.empty()) words.push_back(fmt::format("--hold {}", fmt::join(settings.hold, ",")));
   for (const auto& [name, sigma] : settings.known)
     words.push_back(fmt::format("--known {}={}", name, sigma ? fmt::to_string(*sigma) : "none"));
+  if (!settings.tags.empty()) words.push_back(fmt::format("--tags {}", fmt::join(settings.tags, ",")));
   if (!settings.use_readings) words.push_back("--no-readings");
   if (settings.free_legs) words.push_back("--free-legs");
   if (settings.folds != CalibrateSettings().folds) words.push_back(fmt::format("--folds {}", settings.folds));

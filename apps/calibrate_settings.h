@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@ struct CalibrateSettings {
   std::optional<LensModel> lens;                                     // none: the session camera's
   std::vector<std::string> hold;                                     // names of HoldNames()
   std::vector<std::pair<std::string, std::optional<double>>> known;  // names of KnownNames(); none: forgotten
+  std::vector<std::string> tags;  // groups of tags.yaml that count as observations, or "all"
   bool use_readings = true;
   bool free_legs = false;  // edges only
   int folds = 5;
@@ -46,17 +48,22 @@ PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettin
 // By KnownNames(), without what is not known.
 std::vector<std::pair<std::string, double>> NamedKnowledge(const PriorKnowledge& known);
 
-// Joint readings, or a size that is known beforehand or held, set the scale of a robot whose legs hang on one
-// rigid platform. Where nothing does, the platform's rigidity is not assumed either ("edges only"): the
-// answer then names the scale of each leg that is open, which is what the user has to supply, instead of one
-// for the whole.
+// The session's tag groups that count as observations. Throws std::invalid_argument with a message for the
+// user where one is not there, or with free legs is on the platform ("all": those on the base only).
+std::set<std::string> TagGroupsOf(const CalibrateSettings& settings, const Session& session);
+
+// Joint readings, or a size that is known beforehand, held or shown by tags, set the scale of a robot whose
+// legs hang on one rigid platform. Where nothing does, the platform's rigidity is not assumed either ("edges
+// only"): the answer then names the scale of each leg that is open, which is what the user has to supply,
+// instead of one for the whole.
 bool AssumesRigidPlatform(const CalibrateSettings& settings, const PriorKnowledge& known);
 
 // What ties the legs to one another, in a sentence.
 std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowledge& known);
 
-// The library's options; progress is left to the caller.
-SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const PriorKnowledge& known);
+// The library's options for the session, its `known` as WithSettings has it; progress is left to the caller.
+// Throws as TagGroupsOf does.
+SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const Session& session);
 
 // The options that change the result, as they would be typed: "--hold radii --folds 0"; "none" if all are
 // default.

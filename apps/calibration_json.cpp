@@ -101,8 +101,25 @@ ordered_json HeldOutJson(const CalibrationRun& run) {
 ordered_json TagChecksJson(const std::vector<TagCheck>& checks) {
   ordered_json json = ordered_json::array();
   for (const TagCheck& check : checks)
-    json.push_back(
-        {{"group", check.group}, {"images", check.images}, {"rms_px", check.rms_px}, {"rms_m", check.rms_m}});
+    json.push_back({{"group", check.group},
+                    {"took_part", check.took_part},
+                    {"images", check.images},
+                    {"rms_px", check.rms_px},
+                    {"rms_m", check.rms_m}});
+  return json;
+}
+
+// Of the groups that counted as observations.
+ordered_json TagFitsJson(const LegCalibration& calibration) {
+  ordered_json json = ordered_json::array();
+  for (const TagGroupFit& fit : calibration.tags)
+    json.push_back({{"group", fit.group},
+                    {"tags", fit.tags},
+                    {"tags_left_out", fit.tags_left_out},
+                    {"rms_px", fit.rms_px},
+                    {"sigma_px", calibration.tag_sigma_px},
+                    {"placement_sigmas", fit.placement_sigmas},
+                    {"carrier_from_group", PlacementJson(fit.carrier_from_group)}});
   return json;
 }
 
@@ -166,6 +183,7 @@ ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& f
   json["unobservable"] = SentencesOf(calibration.observability.unobservable);
   json["weak"] = WeakJson(calibration.observability.weak);
   json["held_out"] = HeldOutJson(run);
+  json["tags"] = TagFitsJson(calibration);
   json["tag_checks"] = TagChecksJson(run.result.tag_checks);
   json["time_s"] = TimesJson(run);
   AddProvenance(run, json);

@@ -106,6 +106,10 @@ json ChecksJson(const CalibrationRun& run) {
                       {"text", TagSentence(run.session, check)},
                       {"rms_px", check.rms_px},
                       {"mm", 1e3 * check.rms_m}});
+  for (const TagGroupFit& fit : run.result.calibration.tags)
+    checks.push_back({{"name", "tags " + fit.group},
+                      {"text", TagFitSentence(run.result.calibration, fit)},
+                      {"rms_px", fit.rms_px}});
   const bool has_readings = run.options.estimation.use_joint_readings &&
                             run.result.calibration.status == CalibrationStatus::kConverged;
   if (has_readings) checks.push_back(ReadingsCheck(run));

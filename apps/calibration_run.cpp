@@ -9,15 +9,6 @@ namespace {
 
 bool IsUsed(const LegEdge& edge) { return edge.left_out.empty(); }
 
-// Positions in the result of the images that were given to the estimation: those that could be read, and so
-// were searched for edges.
-std::vector<size_t> ImagesOfEstimation(const SessionCalibration& result) {
-  std::vector<size_t> images;
-  for (size_t i = 0; i < result.images.size(); ++i)
-    if (!result.images[i].edges.edges.empty()) images.push_back(i);
-  return images;
-}
-
 }  // namespace
 
 std::string SessionPath(const CalibrationRun& run) {
@@ -37,10 +28,9 @@ int CountUsedEdges(const SessionCalibration& result) {
 }
 
 std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionCalibration& result) {
-  const std::vector<size_t> images = ImagesOfEstimation(result);
   std::vector<std::vector<const EdgeResidualSet*>> residuals(result.images.size());
   for (const EdgeResidualSet& edge : result.calibration.edges)
-    residuals[images.at(static_cast<size_t>(edge.image))].push_back(&edge);
+    residuals[result.estimated.at(static_cast<size_t>(edge.image))].push_back(&edge);
   return residuals;
 }
 
@@ -48,7 +38,7 @@ std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run) {
   const std::vector<Rigid3>& found = run.result.calibration.camera_from_platform;
   std::vector<std::optional<Rigid3>> poses(run.result.images.size());
   if (!run.options.estimation.rigid_platform || found.empty()) return poses;
-  const std::vector<size_t> images = ImagesOfEstimation(run.result);
+  const std::vector<size_t>& images = run.result.estimated;
   for (size_t k = 0; k < images.size(); ++k)
     if (run.result.images[images[k]].left_out.empty()) poses[images[k]] = found.at(k);
   return poses;
@@ -62,10 +52,19 @@ std::string TagSentence(const Session& session, const TagCheck& check) {
       check.by_readings ? "the joint readings alone and the model put them" : "the model puts them";
   return fmt::format(
       "tags {} on the {}, seen in {} images, lie within {:.3f} mm ({:.3f} px) rms of where {}, their own "
-      "place on it "
-      "fitted",
+      "place on it fitted{}",
       check.group, on_platform ? "platform" : "base", check.images, 1e3 * check.rms_m, check.rms_px,
-      predicted);
+      predicted, check.took_part ? " (they took part in the estimate)" : "");
+}
+
+std::string TagFitSentence(const LegCalibration& calibration, const TagGroupFit& fit) {
+  return fmt::format(
+      "tags {} as observations: {} seen{}, corners off by {:.3f} px rms where all tags show a σ of {:.3f} "
+      "px; "
+      "placed {:.1f} σ from where tags.yaml has them",
+      fit.group, fit.tags,
+      fit.tags_left_out > 0 ? fmt::format(" ({} misread, left out)", fit.tags_left_out) : "", fit.rms_px,
+      calibration.tag_sigma_px, fit.placement_sigmas);
 }
 
 }  // namespace legible

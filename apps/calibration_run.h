@@ -35,4 +35,7 @@ std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run);
 // What a check by tags says, in a clause.
 std::string TagSentence(const Session& session, const TagCheck& check);
 
+// What became of tags that counted as observations, in a clause.
+std::string TagFitSentence(const LegCalibration& calibration, const TagGroupFit& fit);
+
 }  // namespace legible

@@ -39,6 +39,8 @@ std::string FitText(const CalibrationRun& run) {
   if (run.result.held_out_rms_px)
     text += fmt::format(" On images held out: {:.3f} px rms.", *run.result.held_out_rms_px);
   text += "\n";
+  for (const TagGroupFit& fit : calibration.tags)
+    text += Capitalised(TagFitSentence(calibration, fit)) + ".\n";
   for (const TagCheck& check : run.result.tag_checks)
     text += Capitalised(TagSentence(run.session, check)) + ".\n";
   return text;
@@ -152,6 +154,12 @@ std::string WarningsText(const CalibrationRun& run) {
     if (const std::string reason = run.result.images[i].left_out; !reason.empty())
       text +=
           fmt::format("legible: warning: {}: left out: {}\n", run.session.images[i].file.string(), reason);
+  if (!run.result.first_look.empty())
+    text += fmt::format(
+        "legible: warning: a first look at the legs did not refine where the camera is ({}): the edges were "
+        "searched "
+        "from {} as it stands\n",
+        run.result.first_look, run.result.first_pose_from);
   if (!run.session.unlisted_images.empty())
     text +=
         fmt::format("legible: warning: {} of the session's folder {} no row in joints.csv and took no part\n",

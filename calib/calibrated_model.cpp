@@ -30,13 +30,18 @@ std::vector<std::string> ModelNames() {
 Eigen::MatrixXd FromSharedParameters(const LegCalibration& calibration) {
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kModelParameters, kSharedParameterCount);
   map.topLeftCorner<kCameraParameterCount, kCameraParameterCount>().setIdentity();
-  const BaseFromShared base = DifferentiateBase(calibration);
+  const BaseFrame base = FitBaseFrame(calibration.base_joints_in_camera_m, calibration.drawn_base_joints_m);
+  const JointsInBase joints = TakeToBase(base, calibration.base_joints_in_camera_m);
   for (int leg = 0; leg < kLegCount; ++leg) {
     const int row = kCameraParameterCount + leg * kModelLegParameters;
-    map.middleRows<3>(row) = base.joints.middleRows<3>(3 * leg);
-    map.block<5, 5>(row + 3, FirstParameterOfLeg(leg) + leg_parameter::kPlatformJoint).setIdentity();
+    const int shared = FirstParameterOfLeg(leg);
+    map.block<5, 5>(row + 3, shared + leg_parameter::kPlatformJoint).setIdentity();
+    const int base_joint = shared + leg_parameter::kBaseJoint;
+    for (int other = 0; other < kLegCount; ++other)
+      map.block<3, 3>(kCameraParameterCount + other * kModelLegParameters, base_joint) =
+          joints.d_joints.block<3, 3>(3 * other, 3 * leg);
+    map.block<6, 3>(kPlacement, base_joint) = base.d_joints.middleCols<3>(3 * leg);
   }
-  map.bottomRows<6>() = base.placement;
   return map;
 }
 

@@ -6,17 +6,6 @@
 #include "core/geometry/cylinder_outline.h"
 
 namespace legible {
-Eigen::VectorXd PlacesAlong(const EdgeObservation& edge) {
-  const Eigen::Index count = static_cast<Eigen::Index>(edge.samples.size());
-  Eigen::VectorXd places = Eigen::VectorXd::Zero(count);
-  if (count < 2) return places;
-  const Eigen::Vector2d first = edge.samples.front().point_px;
-  const Eigen::Vector2d span = edge.samples.back().point_px - first;
-  for (Eigen::Index i = 0; i < count; ++i)
-    places[i] = 2 * span.dot(edge.samples[static_cast<size_t>(i)].point_px - first) / span.squaredNorm() - 1;
-  return places;
-}
-
 std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,
                                              const Eigen::Vector3d& a_in_camera,
                                              const Eigen::Vector3d& b_in_camera, double radius_m,

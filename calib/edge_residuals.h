@@ -44,9 +44,6 @@ class WhitenedEdge {
   Eigen::Vector2d common_damping_;  // 1 - 1/sqrt(1 + l^2)
 };
 
-// Where the samples lie along their edge, from -1 (first) to 1 (last).
-Eigen::VectorXd PlacesAlong(const EdgeObservation& edge);
-
 // Distances (px, outward) of an edge's samples from the projected, distorted outline of the cylinder of
 // radius_m about the axis from a_in_camera to b_in_camera; nothing where there is no such outline.
 std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,

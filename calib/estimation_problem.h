@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "calib/base_frame.h"
 #include "calib/leg_model.h"
+#include "calib/tag_model.h"
 
 namespace legible {
 
@@ -21,6 +23,7 @@ struct PoseUnit {
   Rigid3 camera_from_platform;     // rigid
   Eigen::Vector3d axis_in_camera;  // not rigid: from A along the leg
   std::vector<LegObservation> legs;
+  std::vector<TagObservation> tags = {};  // rigid: of the groups on the platform
 
   int size() const { return rigid ? 6 : 2; }
 };
@@ -42,12 +45,14 @@ struct EstimationProblem {
   std::vector<PoseUnit> units;
   std::bitset<kSharedParameterCount> free;
   std::vector<ParameterPrior> priors;
+  std::vector<TagPlacement> tag_placements = {};  // unknowns of all images, each with what is known of it
+  std::vector<TagObservation> base_tags;          // of the groups on the base
   // Drawing of the base joints, known to sigma (each coordinate) up to where the base as a whole is; 0:
   // unknown.
-  std::array<Eigen::Vector3d, kLegCount> drawn_base_joints;
+  LegPoints drawn_base_joints;
   double base_joint_sigma_m = 0;
   // The platform frame is the rigid fit of B to these, where B is free and the platform rigid.
-  std::array<Eigen::Vector3d, kLegCount> drawn_platform_joints;
+  LegPoints drawn_platform_joints;
 
   bool HasPlatformGauge() const;
 };
@@ -59,12 +64,7 @@ const std::string& ParameterName(int index);
 
 // Six rows that vanish in first order where the platform frame is the rigid fit of B to the drawn joints, per
 // m: sum (B - B0) / sqrt(6) and sum (B0 - centroid) x (B - B0), normalised. Columns: B of leg 0, …, 5.
-Eigen::Matrix<double, 6, 18> PlatformGauge(
-    const std::array<Eigen::Vector3d, kLegCount>& drawn_platform_joints);
-
-// The projection that takes out of displacements of the points (x, y, z of each) what a rigid motion
-// explains.
-Eigen::Matrix<double, 18, 18> WithoutRigidMotion(const std::array<Eigen::Vector3d, kLegCount>& points);
+Eigen::Matrix<double, 6, 18> PlatformGauge(const LegPoints& drawn_platform_joints);
 
 // Residual of the drawn base after the best rigid fit to A (in camera), m, and its derivative by A.
 struct DrawnBaseResidual {
@@ -72,6 +72,8 @@ struct DrawnBaseResidual {
   Eigen::Matrix<double, 18, 18> d_base_joints;
 };
 DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const SharedParameters& shared);
+
+LegPoints BaseJointsInCamera(const SharedParameters& shared);
 
 // Minimises the sum of squares from where the problem stands (Levenberg-Marquardt, the image poses eliminated
 // by Schur's complement) and leaves the result in it.
@@ -87,9 +89,5 @@ struct SolveSummary {
   double cost = 0;  // half the sum of squares
 };
 SolveSummary Solve(EstimationProblem& problem, const SolveOptions& options);
-
-// Information of the shared parameters (kSharedParameterCount square) after elimination of every unit's pose:
-// data and priors, without the gauge; rows of parameters that are not free are zero.
-Eigen::MatrixXd SharedInformation(const EstimationProblem& problem);
 
 }  // namespace legible

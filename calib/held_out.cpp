@@ -27,43 +27,58 @@ CalibrationStart StartAt(const LegCalibration& solution) {
   return {solution.camera, solution.robot, solution.camera_from_base, {}};
 }
 
-// The solution's pose of one image with everything else held.
-std::optional<Rigid3> FitPose(const LegCalibrationInput& input, const LegCalibration& trained, size_t image,
-                              const Rigid3& first, LegCalibrationOptions options) {
-  LegCalibrationInput one{
-      trained.robot, trained.camera, trained.camera_from_base, {input.images[image]}, {}, StartAt(trained)};
+// The image with its edges moved back by what shading does to them in all images alike.
+ImageObservation WithoutShading(ImageObservation image, const LegCalibration& trained) {
+  for (EdgeObservation& edge : image.edges) {
+    const Eigen::Vector2d shading =
+        trained.shading_px[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
+    const Eigen::VectorXd place = PlacesAlong(edge);
+    for (size_t i = 0; i < edge.samples.size(); ++i)
+      edge.samples[i].point_px -=
+          (shading[0] + shading[1] * place[static_cast<Eigen::Index>(i)]) * edge.samples[i].normal_px;
+  }
+  return image;
+}
+
+// Of the image's edges once its pose, or the direction of each leg, was fitted to them, all else held.
+std::optional<Squares> ErrorAfterFit(const ImageObservation& image, const LegCalibration& trained,
+                                     const Rigid3& first, LegCalibrationOptions options) {
+  LegCalibrationInput one{trained.robot,   trained.camera, trained.camera_from_base, {image}, {},
+                          StartAt(trained)};
   one.start->camera_from_platform = {first};
   options.hold = {true, true, true, true, true, true, true, true};
+  options.lasting_shading = 0;
   options.progress = nullptr;
   const LegCalibration fitted = CalibrateLegs(one, options);
   if (fitted.status != CalibrationStatus::kConverged) return std::nullopt;
-  return fitted.camera_from_platform.front();
+  Squares squares;
+  for (const EdgeResidualSet& edge : fitted.edges) squares.Add(edge.residual_px);
+  return squares;
 }
 
-std::optional<Rigid3> PredictPose(const LegCalibrationInput& input, const LegCalibration& trained,
-                                  size_t image, const Rigid3& first, const LegCalibrationOptions& options) {
-  const auto& readings = input.images[image].joint_readings_m;
-  if (!options.use_joint_readings || !readings) return FitPose(input, trained, image, first, options);
+// Of the image's edges where the joint readings alone put the platform; nothing where they lead to no pose.
+std::optional<Squares> ErrorByReadings(const ImageObservation& image, const LegCalibration& trained,
+                                       const Rigid3& first) {
   const Rigid3 guess = Inverse(trained.camera_from_base) * first;
-  const auto fk = ForwardKinematics(trained.robot, *readings, guess);
+  const auto fk = ForwardKinematics(trained.robot, *image.joint_readings_m, guess);
   if (fk.status != ForwardKinematicsStatus::kConverged) return std::nullopt;
-  return trained.camera_from_base * fk.base_from_platform;
-}
-
-Squares PredictionError(const LegCalibration& trained, const ImageObservation& image,
-                        const Rigid3& camera_from_platform) {
   Squares squares;
   for (const EdgeObservation& edge : image.edges) {
     const Leg& leg = trained.robot.legs[static_cast<size_t>(edge.leg)];
-    const auto distances =
-        EdgeDistances(ParametersOf(trained.camera), trained.camera_from_base * leg.base_joint_m,
-                      camera_from_platform * leg.platform_joint_m, leg.radius_m, edge);
-    if (!distances) continue;
-    const Eigen::Vector2d shading =
-        trained.shading_px[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
-    squares.Add(distances->array() - shading[0] - shading[1] * PlacesAlong(edge).array());
+    const auto distances = EdgeDistances(
+        ParametersOf(trained.camera), trained.camera_from_base * leg.base_joint_m,
+        trained.camera_from_base * (fk.base_from_platform * leg.platform_joint_m), leg.radius_m, edge);
+    if (distances) squares.Add(*distances);
   }
   return squares;
+}
+
+std::optional<Squares> PredictionError(const ImageObservation& image, const LegCalibration& trained,
+                                       const Rigid3& first, const LegCalibrationOptions& options) {
+  const ImageObservation unshaded = WithoutShading(image, trained);
+  const bool by_readings = options.rigid_platform && options.use_joint_readings && image.joint_readings_m;
+  return by_readings ? ErrorByReadings(unshaded, trained, first)
+                     : ErrorAfterFit(unshaded, trained, first, options);
 }
 
 LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& solution,
@@ -74,6 +89,11 @@ LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& sol
     if (fold_of_image[i] == fold) continue;
     training.images.push_back(input.images[i]);
     training.start->camera_from_platform.push_back(solution.camera_from_platform[i]);
+  }
+  for (const ObservedTagGroup& tags : input.tags) {
+    training.tags.push_back({tags.group, {}});
+    for (size_t i = 0; i < input.images.size(); ++i)
+      if (fold_of_image[i] != fold) training.tags.back().detections.push_back(tags.detections[i]);
   }
   options.progress = nullptr;
   return CalibrateLegs(training, options);
@@ -104,12 +124,12 @@ HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& so
     if (trained.status != CalibrationStatus::kConverged) continue;
     for (size_t i = 0; i < input.images.size(); ++i) {
       if (fold_of_image[i] != fold) continue;
-      const auto pose = PredictPose(input, trained, i, solution.camera_from_platform[i], options);
-      if (!pose) continue;
-      const Squares squares = PredictionError(trained, input.images[i], *pose);
-      result.image_rms_px[i] = squares.Rms();
-      all.sum += squares.sum;
-      all.count += squares.count;
+      const auto squares =
+          PredictionError(input.images[i], trained, solution.camera_from_platform[i], options);
+      if (!squares) continue;
+      result.image_rms_px[i] = squares->Rms();
+      all.sum += squares->sum;
+      all.count += squares->count;
     }
   }
   result.rms_px = all.Rms();

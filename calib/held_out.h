@@ -19,8 +19,9 @@ struct HeldOut {
 std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> seed);
 
 // Leaves the images of one fold after the other out, calibrates on the rest from `solution`, predicts the
-// edges of those left out and compares. The platform's pose in them comes from the joint readings alone;
-// where the estimation uses none it is fitted to the image's edges, all else held.
+// edges of those left out and compares, all samples alike: there is no weight that takes an outlier out. The
+// platform's pose in them comes from the joint readings alone; where the estimation uses none it, or the
+// direction of each leg that is free, is fitted to the image's edges, all else held.
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
                       const LegCalibrationOptions& options, const std::vector<int>& fold_of_image);
 

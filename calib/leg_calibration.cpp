@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/tag_weights.h"
+
 namespace legible {
 namespace {
 
@@ -17,8 +19,8 @@ constexpr double kHeldJointSigma_m = 1e-6;  // by which base joints that are hel
 constexpr double kSteadyWeight = 1e-4;      // mean absolute change of the weights at which they end
 constexpr double kAbsurdRms_px = 20;        // a fit this bad is a wrong model, not noise
 
-std::array<Eigen::Vector3d, kLegCount> DrawnJoints(const GoughStewart& robot, Eigen::Vector3d Leg::*joint) {
-  std::array<Eigen::Vector3d, kLegCount> joints;
+LegPoints DrawnJoints(const GoughStewart& robot, Eigen::Vector3d Leg::*joint) {
+  LegPoints joints;
   for (size_t i = 0; i < kLegCount; ++i) joints[i] = robot.legs[i].*joint;
   return joints;
 }
@@ -109,6 +111,33 @@ void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& op
   if (problem.free[static_cast<size_t>(FirstParameterOfLeg(0))]) problem.base_joint_sigma_m = drawn_sigma_m;
 }
 
+TagPlacement PlacementOf(const TagGroup& group, const Rigid3& camera_from_base) {
+  const bool on_base = group.carrier == TagCarrier::kBase;
+  return {group.carrier, on_base ? camera_from_base * group.carrier_from_group : group.carrier_from_group,
+          group.carrier_from_group, group.translation_sigma_m, group.rotation_sigma_rad};
+}
+
+// Each tag of a group on the base once, where the images have it in the median.
+std::vector<TagObservation> BaseTags(const ObservedTagGroup& observed, size_t group) {
+  std::vector<TagObservation> tags;
+  for (const Tag& tag : observed.group.tags) {
+    std::vector<std::array<Eigen::Vector2d, 4>> seen;
+    for (const auto& image : observed.detections)
+      for (const TagDetection& detection : image)
+        if (detection.id == tag.id) seen.push_back(detection.corners_px);
+    if (!seen.empty()) tags.push_back({group, tag.corners_m, MedianCorners(seen), 1});
+  }
+  return tags;
+}
+
+std::vector<TagObservation> PlatformTags(const ObservedTagGroup& observed, size_t group, size_t image) {
+  std::vector<TagObservation> tags;
+  for (const Tag& tag : observed.group.tags)
+    for (const TagDetection& detection : observed.detections[image])
+      if (detection.id == tag.id) tags.push_back({group, tag.corners_m, detection.corners_px, 1});
+  return tags;
+}
+
 // Works through rounds of least squares and re-weighting on one problem.
 class Calibrator {
  public:
@@ -121,12 +150,14 @@ class Calibrator {
     problem_.drawn_base_joints = DrawnJoints(input.drawing, &Leg::base_joint_m);
     problem_.drawn_platform_joints = DrawnJoints(input.drawing, &Leg::platform_joint_m);
     for (size_t image = 0; image < input.images.size(); ++image) AddImage(image);
+    AddTags();
     for (const EdgeResidualSet& edge : edges_) samples_ += static_cast<int>(edge.weight.size());
   }
 
-  bool HasEnough() const { return samples_ + readings_ + PriorRows() > UnknownCount(); }
+  bool HasEnough() const { return samples_ + readings_ + TagRows() + PriorRows() > UnknownCount(); }
   int UnknownCount() const {
-    int unknowns = static_cast<int>(problem_.free.count()) - (problem_.HasPlatformGauge() ? 6 : 0);
+    int unknowns =
+        static_cast<int>(problem_.free.count()) - (problem_.HasPlatformGauge() ? 6 : 0) + PlacementUnknowns();
     for (const PoseUnit& unit : problem_.units) unknowns += unit.size();
     return unknowns;
   }
@@ -136,6 +167,7 @@ class Calibrator {
     if (!EvaluateResiduals()) return false;
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
     UpdateWeights(edges_, noise_);
+    tag_sigma_px_ = MedianTagSigma(tag_errors_);
     for (int round = 0; round < kMaxRounds; ++round) {
       const SolveSummary summary = SolveRound();
       if (!EvaluateResiduals()) return false;
@@ -148,6 +180,7 @@ class Calibrator {
   bool CanEvaluate() { return EvaluateResiduals(); }
 
   LegCalibration Result() const;
+  std::vector<TagGroupFit> TagFits() const;
 
  private:
   // What is held keeps the drawing's and the guessed camera's values, wherever the iterations start.
@@ -158,8 +191,19 @@ class Calibrator {
   }
   void AddImage(size_t image);
   void AddEdge(size_t image, size_t edge);
+  void AddTags();
+  // Every tag with the pose of the platform that carries it (on the base: not looked at), in a fixed order.
+  template <typename F>
+  void ForEachTag(F f) {
+    size_t index = 0;
+    for (TagObservation& tag : problem_.base_tags) f(index++, tag, Rigid3());
+    for (PoseUnit& unit : problem_.units)
+      for (TagObservation& tag : unit.tags) f(index++, tag, unit.camera_from_platform);
+  }
   SolveSummary SolveRound();
   bool EvaluateResiduals();
+  bool EvaluateTags();
+  void ReweightTags(int round);
   bool Reweight(int round);
   EdgeNoise NoiseOf(const EdgeResidualSet& edge) const {
     EdgeNoise noise = noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
@@ -172,8 +216,11 @@ class Calibrator {
   double OtherSquares() const;
   double ReadingSquares() const;
   int PriorRows() const {
-    return static_cast<int>(problem_.priors.size()) + (problem_.base_joint_sigma_m > 0 ? 12 : 0);
+    return static_cast<int>(problem_.priors.size()) + (problem_.base_joint_sigma_m > 0 ? 12 : 0) +
+           PlacementUnknowns();  // of which each has a prior
   }
+  int PlacementUnknowns() const { return 6 * static_cast<int>(problem_.tag_placements.size()); }
+  int TagRows() const { return kTagRows * static_cast<int>(tag_errors_.size()); }
 
   const LegCalibrationInput& input_;
   const LegCalibrationOptions& options_;
@@ -183,6 +230,9 @@ class Calibrator {
   std::vector<const EdgeObservation*> sources_;
   std::vector<std::pair<size_t, size_t>> placements_;  // unit, leg observation in it
   NoiseByEdge noise_ = UniformNoise({});
+  std::vector<TagErrors> tag_errors_;  // in the order of ForEachTag
+  std::vector<size_t> tag_groups_;     // of the same tags
+  double tag_sigma_px_ = 0;
   int samples_ = 0;
   int readings_ = 0;
   int iterations_ = 0;
@@ -240,7 +290,50 @@ void Calibrator::AddEdge(size_t image, size_t edge) {
     placements_.emplace_back(problem_.units.size() - kLegCount + leg, 0);
 }
 
+void Calibrator::AddTags() {
+  for (size_t group = 0; group < input_.tags.size(); ++group) {
+    const ObservedTagGroup& observed = input_.tags[group];
+    problem_.tag_placements.push_back(PlacementOf(observed.group, start_.camera_from_base));
+    const bool on_base = observed.group.carrier == TagCarrier::kBase;
+    if (on_base) {
+      const std::vector<TagObservation> tags = BaseTags(observed, group);
+      problem_.base_tags.insert(problem_.base_tags.end(), tags.begin(), tags.end());
+    }
+    for (PoseUnit& unit : problem_.units) {
+      if (on_base) break;
+      const std::vector<TagObservation> tags = PlatformTags(observed, group, static_cast<size_t>(unit.image));
+      unit.tags.insert(unit.tags.end(), tags.begin(), tags.end());
+    }
+  }
+  ForEachTag([&](size_t, const TagObservation& tag, const Rigid3&) {
+    tag_errors_.emplace_back();
+    tag_groups_.push_back(tag.group);
+  });
+}
+
+bool Calibrator::EvaluateTags() {
+  bool all = true;
+  ForEachTag([&](size_t index, const TagObservation& tag, const Rigid3& camera_from_platform) {
+    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+                               camera_from_platform, Vector6d::Zero(), tag);
+    all &= r.has_value();
+    if (r) tag_errors_[index].error_px = r->residual * tag.sigma_px;
+  });
+  return all;
+}
+
+void Calibrator::ReweightTags(int round) {
+  if (tag_errors_.empty()) return;
+  WeighTags(tag_errors_, tag_sigma_px_);
+  tag_sigma_px_ = round < kRoundsByMedian ? MedianTagSigma(tag_errors_)
+                                          : TagSigma(tag_errors_, problem_.tag_placements.size());
+}
+
 SolveSummary Calibrator::SolveRound() {
+  constexpr double kLeastTagWeight = 1e-8;
+  ForEachTag([&](size_t index, TagObservation& tag, const Rigid3&) {
+    tag.sigma_px = tag_sigma_px_ / std::sqrt(std::max(tag_errors_[index].weight, kLeastTagWeight));
+  });
   for (PoseUnit& unit : problem_.units)
     for (LegObservation& leg : unit.legs) leg.edges.clear();
   for (size_t i = 0; i < edges_.size(); ++i)
@@ -268,7 +361,7 @@ bool Calibrator::EvaluateResiduals() {
     const Eigen::Vector2d shading = leg.segment<2>(leg_parameter::kShading + 2 * edge.edge);
     edge.residual_px = distances->array() - shading[0] - shading[1] * edge.place.array();
   }
-  return true;
+  return EvaluateTags();
 }
 
 // Updates noise and weights; true once they stand still.
@@ -279,18 +372,20 @@ bool Calibrator::Reweight(int round) {
   if (round < kRoundsByMedian) {
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
   } else {
-    // Of the freedom that all residuals have, the readings and priors use up what their own squares show.
-    const double fitted = UnknownCount() - readings_ - PriorRows() + OtherSquares();
+    // Of the freedom that all residuals have, readings, tags and priors use up what their own squares show.
+    const double fitted = UnknownCount() - readings_ - TagRows() - PriorRows() + OtherSquares();
     noise_ = EstimateNoise(edges_, std::max(fitted, 0.0));
   }
   UpdateWeights(edges_, noise_);
+  const double tag_sigma_before_px = tag_sigma_px_;
+  ReweightTags(round);
   double change = 0;
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
   const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
   const EdgeNoise now = MeanNoise(noise_);
   return round > kRoundsByMedian && steady(before.sample, now.sample) && steady(before.shift, now.shift) &&
-         change <= kSteadyWeight * samples_;
+         steady(tag_sigma_before_px, tag_sigma_px_) && change <= kSteadyWeight * samples_;
 }
 
 double Calibrator::Rms() const {
@@ -312,9 +407,16 @@ double Calibrator::EdgeSigma() const {
   return samples_ > 0 ? std::sqrt(variance / samples_) : 0;
 }
 
-// Sum of squares, in sigmas, of the residuals of readings and priors.
+// Sum of squares, in sigmas, of the residuals of readings, tags and priors.
 double Calibrator::OtherSquares() const {
   double squares = ReadingSquares();
+  for (const TagErrors& tag : tag_errors_)
+    squares += tag.weight * (tag.error_px / tag_sigma_px_).squaredNorm();
+  if (!problem_.tag_placements.empty()) {
+    const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
+    for (const TagPlacement& placement : problem_.tag_placements)
+      squares += EvaluatePlacement(placement, Vector6d::Zero(), base).residual.squaredNorm();
+  }
   for (const ParameterPrior& prior : problem_.priors)
     squares += std::pow((Parameter(problem_.shared, prior.parameter) - prior.value) / prior.sigma, 2);
   if (problem_.base_joint_sigma_m > 0)
@@ -339,28 +441,50 @@ double Calibrator::ReadingSquares() const {
   return squares;
 }
 
+std::vector<TagGroupFit> Calibrator::TagFits() const {
+  const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
+  std::vector<TagGroupFit> fits;
+  for (size_t group = 0; group < input_.tags.size(); ++group) {
+    const TagPlacement& placement = problem_.tag_placements[group];
+    TagGroupFit fit{input_.tags[group].group.name, placement.parent_from_group};
+    if (placement.carrier == TagCarrier::kBase)
+      fit.carrier_from_group = Inverse(base.camera_from_base) * placement.parent_from_group;
+    fit.placement_sigmas =
+        EvaluatePlacement(placement, Vector6d::Zero(), base).residual.norm() / std::sqrt(6.0);
+    double squares = 0, weights = 0;
+    for (size_t i = 0; i < tag_errors_.size(); ++i) {
+      if (tag_groups_[i] != group) continue;
+      ++fit.tags;
+      if (tag_errors_[i].weight == 0) ++fit.tags_left_out;
+      squares += tag_errors_[i].weight * tag_errors_[i].error_px.squaredNorm();
+      weights += kTagRows * tag_errors_[i].weight;
+    }
+    if (weights > 0) fit.rms_px = std::sqrt(squares / weights);
+    fits.push_back(fit);
+  }
+  return fits;
+}
+
 LegCalibration Calibrator::Result() const {
   LegCalibration result;
   result.camera = WithParameters(input_.camera, problem_.shared.camera);
   result.robot = input_.drawing;
-  result.camera_from_platform.resize(input_.images.size());
+  result.camera_from_platform = start_.camera_from_platform;
   for (const PoseUnit& unit : problem_.units)
     if (unit.rigid) result.camera_from_platform[static_cast<size_t>(unit.image)] = unit.camera_from_platform;
-  std::vector<Eigen::Vector3d> drawn, found;
+  result.base_joints_in_camera_m = BaseJointsInCamera(problem_.shared);
+  result.drawn_base_joints_m = problem_.drawn_base_joints;
+  const BaseFrame base = FitBaseFrame(result.base_joints_in_camera_m, result.drawn_base_joints_m);
+  const JointsInBase joints = TakeToBase(base, result.base_joints_in_camera_m);
+  result.camera_from_base = base.camera_from_base;
   for (size_t i = 0; i < kLegCount; ++i) {
     const LegParameters& leg = problem_.shared.legs[i];
-    result.base_joints_in_camera_m[i] = leg.segment<3>(leg_parameter::kBaseJoint);
-    result.drawn_base_joints_m[i] = input_.drawing.legs[i].base_joint_m;
-    result.robot.legs[i].platform_joint_m = leg.segment<3>(leg_parameter::kPlatformJoint);
-    result.robot.legs[i].radius_m = leg[leg_parameter::kRadius];
-    result.robot.legs[i].joint_offset_m = leg[leg_parameter::kJointOffset];
+    result.robot.legs[i] = {joints.base_joints_m[i], leg.segment<3>(leg_parameter::kPlatformJoint),
+                            leg[leg_parameter::kRadius], leg[leg_parameter::kJointOffset],
+                            input_.drawing.legs[i].joint_range_m};
     result.shading_px[i] = leg.segment<4>(leg_parameter::kShading);
-    drawn.push_back(input_.drawing.legs[i].base_joint_m);
-    found.push_back(result.base_joints_in_camera_m[i]);
   }
-  result.camera_from_base = FitRigid(drawn, found);
-  const Rigid3 base_from_camera = Inverse(result.camera_from_base);
-  for (size_t i = 0; i < kLegCount; ++i) result.robot.legs[i].base_joint_m = base_from_camera * found[i];
+  result.tag_sigma_px = tag_sigma_px_;
   result.noise = MeanNoise(noise_);
   result.noise_by_edge = noise_;
   result.rms_px = Rms();
@@ -373,6 +497,19 @@ LegCalibration Calibrator::Result() const {
   result.observability = AnalyseObservability(problem_);
   result.covariance_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   return result;
+}
+
+void CheckTags(const LegCalibrationInput& input, const LegCalibrationOptions& options) {
+  for (const ObservedTagGroup& tags : input.tags) {
+    if (tags.detections.size() != input.images.size())
+      throw std::invalid_argument("CalibrateLegs: a tag group must hold the detections of each image");
+    if (tags.group.carrier == TagCarrier::kPlatform && !options.rigid_platform)
+      throw std::invalid_argument(fmt::format(
+          "CalibrateLegs: the tags {} are on the platform, which is not taken to be rigid", tags.group.name));
+    if (!(tags.group.translation_sigma_m > 0 && tags.group.rotation_sigma_rad > 0))
+      throw std::invalid_argument(
+          fmt::format("CalibrateLegs: the place of the tags {} needs sigmas", tags.group.name));
+  }
 }
 
 void CheckInput(const LegCalibrationInput& input) {
@@ -427,6 +564,7 @@ const char* ToString(CalibrationStatus status) {
 LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options) {
   options.Check();
   CheckInput(input);
+  CheckTags(input, options);
   Calibrator calibrator(input, options);
   if (!calibrator.HasEnough())
     return WithoutEstimate(CalibrationStatus::kTooFewObservations,
@@ -449,46 +587,9 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
         result.rms_px);
   } else {
     result.status = CalibrationStatus::kConverged;
+    result.tags = calibrator.TagFits();
   }
   return result;
-}
-
-BaseFromShared DifferentiateBase(const LegCalibration& calibration) {
-  const Eigen::Matrix3d rotation = calibration.camera_from_base.rotation.toRotationMatrix();
-  Eigen::Vector3d found_mean = Eigen::Vector3d::Zero(), drawn_mean = Eigen::Vector3d::Zero();
-  for (size_t i = 0; i < kLegCount; ++i) {
-    found_mean += calibration.base_joints_in_camera_m[i] / kLegCount;
-    drawn_mean += rotation * calibration.drawn_base_joints_m[i] / kLegCount;
-  }
-  // The fit ends where sum drawn x found = 0, both about their means: its differential gives omega by A.
-  Eigen::Matrix3d by_turn = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 18> by_joints, mean;
-  for (size_t i = 0; i < kLegCount; ++i) {
-    const Eigen::Vector3d found = calibration.base_joints_in_camera_m[i] - found_mean;
-    const Eigen::Vector3d drawn = rotation * calibration.drawn_base_joints_m[i] - drawn_mean;
-    by_turn += found.dot(drawn) * Eigen::Matrix3d::Identity() - drawn * found.transpose();
-    by_joints.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = Skew(drawn);
-    mean.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = Eigen::Matrix3d::Identity() / kLegCount;
-  }
-  const Eigen::Matrix<double, 3, 18> turn = by_turn.inverse() * by_joints;
-  const Eigen::Matrix<double, 3, 18> shift = mean + Skew(drawn_mean) * turn;
-
-  Eigen::Matrix<double, 18, kSharedParameterCount> joints_in_camera;
-  joints_in_camera.setZero();
-  Eigen::Matrix<double, 18, 18> in_base;
-  for (int i = 0; i < kLegCount; ++i) {
-    joints_in_camera.middleCols<3>(FirstParameterOfLeg(i) + leg_parameter::kBaseJoint)
-        .middleRows<3>(3 * i)
-        .setIdentity();
-    const Eigen::Vector3d arm = calibration.base_joints_in_camera_m[static_cast<size_t>(i)] -
-                                calibration.camera_from_base.translation;
-    in_base.middleRows<3>(3 * i) = Skew(arm) * turn - shift;
-    in_base.block<3, 3>(3 * i, 3 * i) += Eigen::Matrix3d::Identity();
-    in_base.middleRows<3>(3 * i) = (rotation.transpose() * in_base.middleRows<3>(3 * i)).eval();
-  }
-  BaseFromShared base{in_base * joints_in_camera, {}};
-  base.placement << shift * joints_in_camera, turn * joints_in_camera;
-  return base;
 }
 
 }  // namespace legible

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "calib/base_frame.h"
 #include "calib/leg_model.h"
 #include "calib/observability.h"
 #include "calib/robust_weights.h"
 #include "core/session/session.h"
 #include "core/vision/edge_observation.h"
+#include "core/vision/tags.h"
 
 namespace legible {
 
@@ -21,6 +23,13 @@ struct CalibrationStart {
   std::vector<Rigid3> camera_from_platform;  // of each image of the input
 };
 
+// Tags that count as observations: a group, with known corners and roughly known place, and what each image
+// shows of it.
+struct ObservedTagGroup {
+  TagGroup group;
+  std::vector<std::vector<TagDetection>> detections;  // of each image of the input
+};
+
 // What a calibration is given. Images without edges are allowed and ignored. Without a start the poses begin
 // at the forward kinematics of the drawing from the readings.
 struct LegCalibrationInput {
@@ -30,6 +39,7 @@ struct LegCalibrationInput {
   std::vector<ImageObservation> images;
   PriorKnowledge known;  // about the values in `drawing` and `camera`
   std::optional<CalibrationStart> start;
+  std::vector<ObservedTagGroup> tags = {};  // on the platform: only where it is rigid
 };
 
 // Parameters that keep their first value.
@@ -67,15 +77,26 @@ enum class CalibrationStatus {
 };
 const char* ToString(CalibrationStatus status);
 
+// What became of a tag group that counted as observation.
+struct TagGroupFit {
+  std::string group;
+  Rigid3 carrier_from_group;  // as found; tags.yaml's place is one of the observations
+  double placement_sigmas =
+      0;                  // root mean square of its six differences from tags.yaml, in their sigmas there
+  int tags = 0;           // seen; on the base once for all images
+  int tags_left_out = 0;  // of these, without weight
+  double rms_px = 0;      // of a coordinate of a corner, weighted
+};
+
 struct LegCalibration {
   CalibrationStatus status = CalibrationStatus::kNotConverged;
   std::string message;  // why, in a sentence, where the status is not kConverged
   Camera camera;
   Rigid3 camera_from_base;  // base: the rigid fit of A to the drawing
   GoughStewart robot;       // A in base, B in platform (the rigid fit of B to the drawing)
-  std::array<Eigen::Vector3d, kLegCount> base_joints_in_camera_m;
-  std::array<Eigen::Vector3d, kLegCount> drawn_base_joints_m;  // that the base frame is fitted by
-  std::vector<Rigid3> camera_from_platform;           // by image; identity where the platform is not rigid
+  LegPoints base_joints_in_camera_m;
+  LegPoints drawn_base_joints_m;                      // that the base frame is fitted by
+  std::vector<Rigid3> camera_from_platform;           // by image; the first guess where it is not rigid
   std::array<Eigen::Vector4d, kLegCount> shading_px;  // lasting: shift and tilt of edge 1, of edge 2
   Observability observability;                        // covariance of the shared parameters, A in camera
   EdgeNoise noise;  // what the residuals say of the samples' own sigmas, over all edges
@@ -84,6 +105,8 @@ struct LegCalibration {
   double rms_px = 0;                   // weighted, of all samples' distances
   double reading_rms = 0;              // of the reading residuals in their sigmas; 0 without readings
   std::vector<EdgeResidualSet> edges;  // residual and weight of every sample
+  std::vector<TagGroupFit> tags;       // of each group of the input; only where converged
+  double tag_sigma_px = 0;  // of a coordinate of a corner, as the residuals show it; 0 without tags
   int samples = 0;
   int iterations = 0;
   double covariance_s = 0;  // time that the observability took
@@ -92,15 +115,5 @@ struct LegCalibration {
 // Maximum-likelihood estimate with outliers taken out by re-weighting and the noise re-estimated from the
 // residuals. Throws std::invalid_argument on malformed input; every numerical outcome is in the status.
 LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options);
-
-// How the base moves with the shared parameters, exactly to first order. Its frame is itself the rigid fit of
-// the drawing to A, so that a motion of all A together shows in the placement only.
-struct BaseFromShared {
-  Eigen::Matrix<double, 18, kSharedParameterCount> joints;  // A in base, x y z of legs 1 to 6
-  Eigen::Matrix<double, 6, kSharedParameterCount>
-      placement;  // (v, omega) in the camera frame: camera_from_base
-                  // becomes {Exp(omega) rotation, translation + v}
-};
-BaseFromShared DifferentiateBase(const LegCalibration& calibration);
 
 }  // namespace legible

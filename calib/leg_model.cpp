@@ -5,16 +5,6 @@
 namespace legible {
 namespace {
 
-// d(Exp(omega) x) = -[Exp(omega) x] Jl(omega) d omega.
-Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& omega) {
-  const double angle2 = omega.squaredNorm();
-  const double angle = std::sqrt(angle2);
-  const Eigen::Matrix3d skew = Skew(omega);
-  if (angle < 1e-5) return Eigen::Matrix3d::Identity() + skew / 2 + skew * skew / 6;
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * skew +
-         (angle - std::sin(angle)) / (angle2 * angle) * skew * skew;
-}
-
 // Two unit vectors across `direction`, orthogonal to one another.
 Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& direction) {
   Eigen::Matrix<double, 3, 2> tangents;
@@ -48,6 +38,7 @@ LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platfor
   const Eigen::Vector3d turned = rotation * leg.segment<3>(leg_parameter::kPlatformJoint);
   LegTip tip{turned + pose.translation, Eigen::Matrix3d::Zero(), rotation, {}};
   tip.d_pose.resize(3, 6);
+  // d(Exp(omega) x) = -[Exp(omega) x] Jl(omega) d omega.
   tip.d_pose << Eigen::Matrix3d::Identity(), -Skew(turned) * LeftJacobian(displacement.tail<3>());
   return tip;
 }

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 
+#include "calib/shared_information.h"
+
 namespace legible {
 namespace {
 
@@ -161,11 +163,19 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
   return result;
 }
 
+Observability WhereAllIsHeld() {
+  return {{},
+          {},
+          Eigen::MatrixXd::Zero(kSharedParameterCount, kSharedParameterCount),
+          std::vector<bool>(kSharedParameterCount, true)};
+}
+
 }  // namespace
 
 Observability AnalyseObservability(const EstimationProblem& problem) {
   const Eigen::VectorXd sizes = NaturalSizes(problem);
   const Eigen::MatrixXd directions = FreeDirections(problem, sizes);
+  if (directions.cols() == 0) return WhereAllIsHeld();
   const Eigen::MatrixXd relative = sizes.asDiagonal() * SharedInformation(problem) * sizes.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(directions.transpose() * relative * directions);
   const Eigen::VectorXd& values = eigen.eigenvalues();  // ascending

@@ -51,7 +51,8 @@ struct Prediction {
   Camera camera;
   GoughStewart robot;
   Rigid3 camera_from_base;
-  std::vector<Rigid3> base_from_platform;  // of each image
+  std::vector<std::optional<Rigid3>>
+      base_from_platform;  // of each image; none where the readings lead to none
 };
 
 class SessionCalibrator {
@@ -84,7 +85,7 @@ class SessionCalibrator {
       result_.times.solve_s += lap.Lap();
     }
     for (size_t i = 0; i < count_; ++i)
-      if (!Left(i)) FinishImage(result_.images[i]);
+      if (IsReadable(i)) FinishImage(result_.images[i]);
     if (Usable()) CheckResult();
     result_.times.held_out_s = lap.Lap();
     result_.times.covariance_s = result_.calibration.covariance_s;
@@ -129,12 +130,13 @@ class SessionCalibrator {
     });
   }
 
-  bool Left(size_t i) const { return images_[i].pixels.empty(); }
+  bool IsReadable(size_t i) const { return !images_[i].pixels.empty(); }
+  bool IsMeasured(size_t i) const { return !result_.images[i].edges.edges.empty(); }
 
   void FindTags() {
     if (!session_.tags) return;
     ForEachImage("finding tags", All(), [&](size_t i) {
-      if (Left(i)) return;
+      if (!IsReadable(i)) return;
       thread_local std::string family;
       thread_local std::unique_ptr<TagDetector> detector;
       if (!detector || family != session_.tags->family) {
@@ -200,8 +202,12 @@ class SessionCalibrator {
     if (!input.known.radius_m) input.known.radius_m = 0.1 * session_.robot.legs[0].radius_m;
     LegCalibrationOptions rough;
     rough.threads = options_.threads;
+    rough.hold = options_.estimation.hold;
     const LegCalibration scouted = CalibrateLegs(input, rough);
-    if (scouted.status == CalibrationStatus::kConverged) Adopt(scouted);
+    if (scouted.status == CalibrationStatus::kConverged)
+      Adopt(scouted);
+    else
+      result_.first_look = scouted.message;
   }
 
   void Adopt(const LegCalibration& calibration) {
@@ -212,7 +218,7 @@ class SessionCalibrator {
   }
 
   void PredictPoses() {
-    prediction_.base_from_platform.assign(count_, prediction_.robot.home);
+    prediction_.base_from_platform.assign(count_, std::nullopt);
     for (size_t i = 0; i < count_; ++i) {
       const auto fk =
           ForwardKinematics(prediction_.robot, session_.images[i].joint_readings_m, prediction_.robot.home);
@@ -231,9 +237,10 @@ class SessionCalibrator {
   void Measure(const std::string& stage, const std::vector<size_t>& which,
                const LegEdgeOptions& edge_options) {
     ForEachImage(stage, which, [&](size_t i) {
-      if (Left(i)) return;
+      result_.images[i].edges = LegEdges();
+      if (!IsReadable(i) || !prediction_.base_from_platform[i]) return;
       const LegsInCamera legs =
-          PlaceLegs(prediction_.robot, prediction_.camera_from_base, prediction_.base_from_platform[i]);
+          PlaceLegs(prediction_.robot, prediction_.camera_from_base, *prediction_.base_from_platform[i]);
       result_.images[i].edges = MeasureLegEdges(images_[i], legs, prediction_.camera, edge_options);
     });
   }
@@ -247,26 +254,40 @@ class SessionCalibrator {
         session_.known,
         CalibrationStart{prediction_.camera, prediction_.robot, prediction_.camera_from_base, {}}};
     for (size_t i : which) {
-      if (Left(i)) continue;
+      if (!IsMeasured(i)) continue;
       input.images.push_back(ToObservation(session_.images[i].name, session_.images[i].joint_readings_m,
                                            result_.images[i].edges));
-      input.start->camera_from_platform.push_back(prediction_.camera_from_base *
-                                                  prediction_.base_from_platform[i]);
+      input.start->camera_from_platform.push_back(
+          prediction_.camera_from_base * prediction_.base_from_platform[i].value_or(prediction_.robot.home));
     }
+    AddTags(which, input);
     return input;
   }
 
+  void AddTags(const std::vector<size_t>& which, LegCalibrationInput& input) const {
+    if (!session_.tags) return;
+    for (const TagGroup& group : session_.tags->groups) {
+      if (!TakesPart(group)) continue;
+      input.tags.push_back({group, {}});
+      for (size_t i : which)
+        if (IsMeasured(i)) input.tags.back().detections.push_back(result_.images[i].tags);
+    }
+  }
+
+  bool TakesPart(const TagGroup& group) const { return options_.tag_groups.contains(group.name); }
+
   void Solve() {
     if (options_.progress) options_.progress("solving", 0, 1);
-    result_.calibration = CalibrateLegs(Input(All()), options_.estimation);
+    result_.estimated.clear();
+    for (size_t i = 0; i < count_; ++i)
+      if (IsMeasured(i)) result_.estimated.push_back(i);
+    result_.calibration = CalibrateLegs(Input(result_.estimated), options_.estimation);
     if (Usable()) Adopt(result_.calibration);
   }
 
   void CheckResult() {
     if (options_.progress) options_.progress("checking", 0, 1);
-    std::vector<size_t> used;
-    for (size_t i = 0; i < count_; ++i)
-      if (!Left(i)) used.push_back(i);
+    const std::vector<size_t>& used = result_.estimated;
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
     if (options_.folds > 1) {
       const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
@@ -288,6 +309,10 @@ class SessionCalibrator {
   }
 
   static void FinishImage(ImageOutcome& image) {
+    if (image.edges.edges.empty()) {
+      image.left_out = "no pose of the platform has its joint readings";
+      return;
+    }
     const bool any = std::any_of(image.edges.edges.begin(), image.edges.edges.end(),
                                  [](const LegEdge& edge) { return edge.left_out.empty(); });
     if (!any) image.left_out = "none of its edges could be measured";
@@ -302,20 +327,24 @@ class SessionCalibrator {
       std::vector<Rigid3> camera_from_carrier;
       for (size_t k = 0; k < used.size(); ++k) {
         if (!result_.images[used[k]].left_out.empty()) continue;
+        const auto carrier =
+            on_platform ? PlatformPose(k, used[k], by_readings) : std::optional(prediction_.camera_from_base);
+        if (!carrier) continue;
         sightings.push_back(Match(group, result_.images[used[k]].tags));
-        camera_from_carrier.push_back(on_platform ? PlatformPose(k, used[k], by_readings)
-                                                  : prediction_.camera_from_base);
+        camera_from_carrier.push_back(*carrier);
       }
       if (const auto check = CheckGroup(group, prediction_.camera, sightings, camera_from_carrier))
-        result_.tag_checks.push_back(
-            {group.name, on_platform && by_readings, check->images, check->rms_px, check->rms_m});
+        result_.tag_checks.push_back({group.name, TakesPart(group), on_platform && by_readings, check->images,
+                                      check->rms_px, check->rms_m});
     }
   }
 
   // By the readings alone, which is what the robot would be sent to; without readings as the edges have it.
-  Rigid3 PlatformPose(size_t in_estimation, size_t image, bool by_readings) const {
-    return by_readings ? prediction_.camera_from_base * prediction_.base_from_platform[image]
-                       : result_.calibration.camera_from_platform[in_estimation];
+  std::optional<Rigid3> PlatformPose(size_t in_estimation, size_t image, bool by_readings) const {
+    if (!by_readings) return result_.calibration.camera_from_platform[in_estimation];
+    const auto& base_from_platform = prediction_.base_from_platform[image];
+    if (!base_from_platform) return std::nullopt;
+    return prediction_.camera_from_base * *base_from_platform;
   }
 
   const Session& session_;
@@ -328,6 +357,15 @@ class SessionCalibrator {
   SessionCalibration result_;
 };
 
+void DemandTagGroups(const Session& session, const std::set<std::string>& names) {
+  for (const std::string& name : names) {
+    const bool is_there =
+        session.tags && std::any_of(session.tags->groups.begin(), session.tags->groups.end(),
+                                    [&](const TagGroup& group) { return group.name == name; });
+    if (!is_there) throw std::invalid_argument(fmt::format("the session has no tag group \"{}\"", name));
+  }
+}
+
 }  // namespace
 
 void SessionCalibrationOptions::Check() const {
@@ -339,6 +377,7 @@ void SessionCalibrationOptions::Check() const {
 
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options) {
   options.Check();
+  DemandTagGroups(session, options.tag_groups);
   return SessionCalibrator(session, options).Run();
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct SessionCalibrationOptions {
   LegCalibrationOptions estimation;
   LegEdgeOptions edges;
   std::optional<LensModel> lens;      // instead of the session camera's
+  std::set<std::string> tag_groups;   // that count as observations; the others check the model only
   int scouts = 12;                    // images that the camera's first pose is refined on
   int folds = 5;                      // of the cross-validation; 0: none
   std::optional<std::uint64_t> seed;  // of which images are held out together; none: every folds-th
@@ -40,6 +42,7 @@ struct ImageOutcome {
 // Tags on the base or platform, predicted by the calibrated model, against where they were seen.
 struct TagCheck {
   std::string group;
+  bool took_part = false;    // as an observation: no independent check
   bool by_readings = false;  // the platform's poses came from the joint readings alone, not from the fit
   int images = 0;
   double rms_px = 0;  // corners, after the group's own place on its carrier was fitted over all images
@@ -53,17 +56,21 @@ struct StageTimes {
 struct SessionCalibration {
   LegCalibration calibration;
   std::vector<ImageOutcome> images;
+  std::vector<size_t>
+      estimated;  // positions in `images` of those that the estimation was given, in its order
   // Edges of images held out in turn, predicted from their joint readings alone (or, without readings, after
   // their pose was fitted): root mean square over all of them.
   std::optional<double> held_out_rms_px;
   std::vector<TagCheck> tag_checks;
   std::string first_pose_from;  // "tags base_board" or "camera.yaml"
+  std::string first_look;       // why the camera's first pose could not be refined; empty: it was
   StageTimes times;
 };
 
 // Runs the whole chain. Throws std::invalid_argument for a session that does not say where the camera is (no
-// camera_from_base and no tags on the base that are seen); an image that cannot be read is left out with its
-// reason.
+// camera_from_base and no tags on the base that are seen); an image that cannot be read, or whose joint
+// readings lead to no pose of the platform, is left out with its reason. The readings say where to look for
+// the legs even where the estimation leaves them out.
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options);
 
 }  // namespace legible

@@ -2,13 +2,20 @@
 #include <ceres/ceres.h>
 
 #include <memory>
+#include <optional>
 
 #include "calib/estimation_problem.h"
 
 namespace legible {
 namespace {
 
-// One leg in one image: blocks camera (12), leg (10), pose of the unit (6 or 2).
+void CopyRowMajor(const Eigen::MatrixXd& jacobian, double* to) {
+  if (to == nullptr) return;
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      to, jacobian.rows(), jacobian.cols()) = jacobian;
+}
+
+// One leg in one image: blocks camera (12), leg (12), pose of the unit (6 or 2).
 class LegCost final : public ceres::CostFunction {
  public:
   LegCost(const PoseUnit& unit, const LegObservation& observation) : unit_(unit), observation_(observation) {
@@ -23,20 +30,48 @@ class LegCost final : public ceres::CostFunction {
     if (!r) return false;
     Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = r->residual;
     if (jacobians == nullptr) return true;
-    if (jacobians[0] != nullptr) Copy(r->d_camera, jacobians[0]);
-    if (jacobians[1] != nullptr) Copy(r->d_leg, jacobians[1]);
-    if (jacobians[2] != nullptr) Copy(r->d_pose, jacobians[2]);
+    CopyRowMajor(r->d_camera, jacobians[0]);
+    CopyRowMajor(r->d_leg, jacobians[1]);
+    CopyRowMajor(r->d_pose, jacobians[2]);
     return true;
   }
 
  private:
-  static void Copy(const Eigen::MatrixXd& jacobian, double* to) {
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        to, jacobian.rows(), jacobian.cols()) = jacobian;
-  }
-
   const PoseUnit& unit_;
   const LegObservation& observation_;
+};
+
+// One tag: blocks camera (12), placement of its group (6) and, on the platform, the pose of the unit (6).
+class TagCost final : public ceres::CostFunction {
+ public:
+  TagCost(const TagPlacement& placement, const PoseUnit* unit, const TagObservation& observation)
+      : placement_(placement), unit_(unit), observation_(observation) {
+    *mutable_parameter_block_sizes() = {kCameraParameterCount, 6};
+    if (unit != nullptr) mutable_parameter_block_sizes()->push_back(6);
+    set_num_residuals(kTagRows);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const CameraParameters camera = Eigen::Map<const CameraParameters>(parameters[0]);
+    const Vector6d placed = Eigen::Map<const Vector6d>(parameters[1]);
+    const Vector6d posed =
+        unit_ != nullptr ? Vector6d(Eigen::Map<const Vector6d>(parameters[2])) : Vector6d::Zero();
+    const Rigid3 platform = unit_ != nullptr ? unit_->camera_from_platform : Rigid3();
+    const auto r = EvaluateTag(camera, placement_, placed, platform, posed, observation_);
+    if (!r) return false;
+    Eigen::Map<Eigen::Matrix<double, kTagRows, 1>> rows(residuals);
+    rows = r->residual;
+    if (jacobians == nullptr) return true;
+    CopyRowMajor(r->d_camera, jacobians[0]);
+    CopyRowMajor(r->d_placement, jacobians[1]);
+    if (unit_ != nullptr) CopyRowMajor(r->d_pose, jacobians[2]);
+    return true;
+  }
+
+ private:
+  const TagPlacement& placement_;
+  const PoseUnit* unit_;  // none on the base
+  const TagObservation& observation_;
 };
 
 // (parameter - value) / sigma for one entry of a block.
@@ -70,6 +105,13 @@ class AllLegsCost : public ceres::CostFunction {
   }
 
  protected:
+  // With the legs' blocks; the camera is not looked at.
+  static SharedParameters SharedFrom(double const* const* parameters) {
+    SharedParameters shared{CameraParameters::Zero(), {}};
+    for (size_t leg = 0; leg < kLegCount; ++leg)
+      shared.legs[leg] = Eigen::Map<const LegParameters>(parameters[leg]);
+    return shared;
+  }
   void Scatter(const Eigen::MatrixXd& derivative, double** jacobians) const {
     if (jacobians == nullptr) return;
     for (int leg = 0; leg < kLegCount; ++leg) {
@@ -114,10 +156,7 @@ class DrawnBaseCost final : public AllLegsCost {
   explicit DrawnBaseCost(const EstimationProblem& problem)
       : AllLegsCost(18, leg_parameter::kBaseJoint), problem_(problem) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    SharedParameters shared = problem_.shared;
-    for (size_t leg = 0; leg < kLegCount; ++leg)
-      shared.legs[leg] = Eigen::Map<const LegParameters>(parameters[leg]);
-    const DrawnBaseResidual r = EvaluateDrawnBase(problem_, shared);
+    const DrawnBaseResidual r = EvaluateDrawnBase(problem_, SharedFrom(parameters));
     Eigen::Map<Eigen::VectorXd>(residuals, 18) = r.residual_m / problem_.base_joint_sigma_m;
     Scatter(r.d_base_joints / problem_.base_joint_sigma_m, jacobians);
     return true;
@@ -125,6 +164,29 @@ class DrawnBaseCost final : public AllLegsCost {
 
  private:
   const EstimationProblem& problem_;
+};
+
+// What is known of a group's placement: blocks of all legs, then the placement (6).
+class PlacementCost final : public AllLegsCost {
+ public:
+  PlacementCost(const EstimationProblem& problem, const TagPlacement& placement)
+      : AllLegsCost(6, leg_parameter::kBaseJoint), problem_(problem), placement_(placement) {
+    mutable_parameter_block_sizes()->push_back(6);
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Vector6d placed = Eigen::Map<const Vector6d>(parameters[kLegCount]);
+    const PlacementResiduals r = EvaluatePlacement(
+        placement_, placed,
+        FitBaseFrame(BaseJointsInCamera(SharedFrom(parameters)), problem_.drawn_base_joints));
+    Eigen::Map<Vector6d>(residuals, 6) = r.residual;
+    Scatter(r.d_base_joints, jacobians);
+    if (jacobians != nullptr) CopyRowMajor(r.d_placement, jacobians[kLegCount]);
+    return true;
+  }
+
+ private:
+  const EstimationProblem& problem_;
+  const TagPlacement& placement_;
 };
 
 class ProgressCallback final : public ceres::IterationCallback {
@@ -157,10 +219,16 @@ class CeresProblem {
   explicit CeresProblem(EstimationProblem& estimation)
       : estimation_(estimation),
         displacements_(6 * estimation.units.size(), 0.0),
+        placements_(6 * estimation.tag_placements.size(), 0.0),
         problem_(ProblemOptions()) {
     for (double* block : SharedBlocks()) problem_.AddParameterBlock(block, BlockSize(block));
-    for (size_t i = 0; i < estimation.units.size(); ++i)
+    for (size_t i = 0; i < estimation.units.size(); ++i) {
       for (const LegObservation& observation : estimation.units[i].legs) AddLeg(i, observation);
+      for (const TagObservation& tag : estimation.units[i].tags) AddTag(i, tag);
+    }
+    for (const TagObservation& tag : estimation.base_tags) AddTag(std::nullopt, tag);
+    for (size_t i = 0; i < estimation.tag_placements.size(); ++i)
+      AddAllLegs(new PlacementCost(estimation, estimation.tag_placements[i]), {&placements_[6 * i]});
     for (const ParameterPrior& prior : estimation.priors) AddPrior(prior);
     if (estimation.HasPlatformGauge()) AddAllLegs(new PlatformGaugeCost(estimation));
     if (estimation.base_joint_sigma_m > 0) AddAllLegs(new DrawnBaseCost(estimation));
@@ -177,6 +245,8 @@ class CeresProblem {
       if (problem_.HasParameterBlock(&displacements_[6 * i]))
         solver.linear_solver_ordering->AddElementToGroup(&displacements_[6 * i], 0);
     for (double* block : SharedBlocks()) solver.linear_solver_ordering->AddElementToGroup(block, 1);
+    for (size_t i = 0; i < placements_.size(); i += 6)
+      solver.linear_solver_ordering->AddElementToGroup(&placements_[i], 1);
     solver.max_num_iterations = options.max_iterations;
     solver.function_tolerance = options.relative_tolerance;
     solver.parameter_tolerance = 1e-12;
@@ -190,6 +260,10 @@ class CeresProblem {
     ceres::Solve(solver, &problem_, &summary);
     for (size_t i = 0; i < estimation_.units.size(); ++i)
       Displace(estimation_.units[i], &displacements_[6 * i]);
+    for (size_t i = 0; i < estimation_.tag_placements.size(); ++i) {
+      Rigid3& placement = estimation_.tag_placements[i].parent_from_group;
+      placement = Displaced(placement, Eigen::Map<const Vector6d>(&placements_[6 * i]));
+    }
     return {summary.termination_type == ceres::CONVERGENCE, static_cast<int>(summary.iterations.size()) - 1,
             summary.final_cost};
   }
@@ -225,14 +299,23 @@ class CeresProblem {
     problem_.AddResidualBlock(new PriorCost(BlockSize(block), entry, prior.value, prior.sigma), nullptr,
                               block);
   }
-  void AddAllLegs(ceres::CostFunction* cost) {
+  void AddTag(const std::optional<size_t>& unit, const TagObservation& tag) {
+    const TagPlacement& placement = estimation_.tag_placements[tag.group];
+    std::vector<double*> blocks = {Camera(), &placements_[6 * tag.group]};
+    if (unit) blocks.push_back(&displacements_[6 * *unit]);
+    problem_.AddResidualBlock(new TagCost(placement, unit ? &estimation_.units[*unit] : nullptr, tag),
+                              nullptr, blocks);
+  }
+  void AddAllLegs(ceres::CostFunction* cost, const std::vector<double*>& others = {}) {
     std::vector<double*> blocks = SharedBlocks();
     blocks.erase(blocks.begin());
+    blocks.insert(blocks.end(), others.begin(), others.end());
     problem_.AddResidualBlock(cost, nullptr, blocks);
   }
 
   EstimationProblem& estimation_;
-  std::vector<double> displacements_;
+  std::vector<double> displacements_;  // of the units' poses, 6 each
+  std::vector<double> placements_;     // displacements of the tag groups, 6 each
   ceres::Problem problem_;
 };
 

@@ -19,7 +19,7 @@ using Generator = std::mt19937_64;
 constexpr int kMostTriesAPose = 10000;
 
 // Separate streams, so that what one draws leaves the others alone.
-enum class Stream : std::uint32_t { kTruth, kGuess, kPoses, kOcclusions, kNoise };
+enum class Stream : std::uint32_t { kTruth, kGuess, kPoses, kOcclusions, kNoise, kShading, kLastingShading };
 
 Generator MakeGenerator(std::uint64_t seed, Stream stream) {
   std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
@@ -134,6 +134,7 @@ std::optional<std::array<EdgeObservation, 2>> ExactEdges(const SyntheticOptions&
   for (int edge = 0; edge < 2; ++edge) {
     edges[edge].leg = leg;
     edges[edge].edge = edge;
+    edges[edge].common_sigma_px = options.common_edge_sigma_px;
     for (int i = 0; i < options.samples_per_edge; ++i) {
       const Eigen::Vector3d point =
           a_in_camera + (options.first_sample + i * step) * (b_in_camera - a_in_camera);
@@ -200,6 +201,29 @@ void Occlude(const SyntheticOptions& options, std::vector<ImageObservation>& obs
   }
 }
 
+Eigen::Vector4d NormalVector4(Generator& generator, double sigma) {
+  std::normal_distribution<double> normal(0, sigma);
+  Eigen::Vector4d vector;
+  for (double& entry : vector) entry = sigma > 0 ? normal(generator) : 0;
+  return vector;
+}
+
+// Moves whole edges, as shading does.
+void Shade(const SyntheticOptions& options, std::uint64_t noise_seed,
+           std::vector<ImageObservation>& observations) {
+  const auto lasting = DrawLastingShading(options, noise_seed);
+  Generator generator = MakeGenerator(noise_seed, Stream::kShading);
+  for (ImageObservation& observation : observations)
+    for (EdgeObservation& edge : observation.edges) {
+      const Eigen::Vector2d moved = NormalVector4(generator, options.common_edge_sigma_px).head<2>() +
+                                    lasting[static_cast<size_t>(edge.leg)].segment<2>(2 * edge.edge);
+      const Eigen::VectorXd place = PlacesAlong(edge);
+      for (size_t i = 0; i < edge.samples.size(); ++i)
+        edge.samples[i].point_px +=
+            (moved[0] + moved[1] * place[static_cast<Eigen::Index>(i)]) * edge.samples[i].normal_px;
+    }
+}
+
 struct Draw {
   std::vector<ImageObservation> observations;
   std::vector<bool> is_outlier;
@@ -224,6 +248,7 @@ Draw DrawNoise(const std::vector<ImageObservation>& exact, const SyntheticOption
       }
     }
   }
+  Shade(options, noise_seed, draw.observations);
   return draw;
 }
 
@@ -261,6 +286,8 @@ void CheckSamples(const SyntheticOptions& options) {
   Demand(options.samples_per_edge - OccludedCount(options) >= 2,
          "occlusion_fraction must leave 2 samples an edge");
   Demand(options.edge_sigma_px > 0, "edge_sigma_px must be greater than 0");
+  Demand(options.common_edge_sigma_px >= 0, "common_edge_sigma_px must be 0 or more");
+  Demand(options.lasting_shading_px >= 0, "lasting_shading_px must be 0 or more");
   Demand(options.joint_reading_sigma_m >= 0, "joint_reading_sigma_m must be 0 or more");
   Demand(options.outlier_fraction >= 0 && options.outlier_fraction <= 1,
          "outlier_fraction must be in [0, 1]");
@@ -345,6 +372,14 @@ SyntheticSession GenerateSession(const SyntheticOptions& options) {
 std::vector<ImageObservation> DrawObservations(const SyntheticSession& session,
                                                const SyntheticOptions& options, std::uint64_t noise_seed) {
   return DrawNoise(session.exact_observations, options, noise_seed).observations;
+}
+
+std::array<Eigen::Vector4d, kLegCount> DrawLastingShading(const SyntheticOptions& options,
+                                                          std::uint64_t noise_seed) {
+  Generator generator = MakeGenerator(noise_seed, Stream::kLastingShading);
+  std::array<Eigen::Vector4d, kLegCount> shading;
+  for (Eigen::Vector4d& of_leg : shading) of_leg = NormalVector4(generator, options.lasting_shading_px);
+  return shading;
 }
 
 }  // namespace legible

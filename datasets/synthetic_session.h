@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -55,13 +56,17 @@ struct SyntheticOptions {
   double last_sample = 0.92;
   double occlusion_fraction = 0;  // of each edge's samples: a contiguous stretch of them is missing
 
-  double edge_sigma_px = 0.3;             // along the edge's normal; > 0, for it is the samples' weight too
+  double edge_sigma_px = 0.3;  // along the edge's normal; > 0, for it is the samples' weight too
+  // What shading does to whole edges: a shift, and a tilt (at the edge's ends), of each edge in each image,
+  // and of each leg's edges the same in all images.
+  double common_edge_sigma_px = 0;
+  double lasting_shading_px = 0;
   double joint_reading_sigma_m = 2.0e-5;  // 0 gives exact readings
   double outlier_fraction = 0;            // chance of a sample to be an outlier
   double outlier_half_width_px = 20;      // outliers: uniform within this along the normal
 
   std::uint64_t seed = 1;        // of the truth, the first guess, the poses and the occlusions
-  std::uint64_t noise_seed = 1;  // of the noise and the outliers
+  std::uint64_t noise_seed = 1;  // of the noise, the shading and the outliers
 
   // Throws std::invalid_argument that names the field out of its range.
   void Check() const;
@@ -86,5 +91,10 @@ SyntheticSession GenerateSession(const SyntheticOptions& options);
 // options.noise_seed) are the observations that GenerateSession(options) drew.
 std::vector<ImageObservation> DrawObservations(const SyntheticSession& session,
                                                const SyntheticOptions& options, std::uint64_t noise_seed);
+
+// Shift and tilt of edge 1, of edge 2 of each leg in all images alike (px, outward; the tilt at the end
+// towards B), as DrawObservations has them.
+std::array<Eigen::Vector4d, kLegCount> DrawLastingShading(const SyntheticOptions& options,
+                                                          std::uint64_t noise_seed);
 
 }  // namespace legible

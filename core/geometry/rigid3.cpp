@@ -53,6 +53,15 @@ Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& rotation) {
   return sign * scale * rotation.vec();
 }
 
+Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& rotation_vector_rad) {
+  const double angle2 = rotation_vector_rad.squaredNorm();
+  const double angle = std::sqrt(angle2);
+  const Eigen::Matrix3d skew = Skew(rotation_vector_rad);
+  if (angle < 1e-5) return Eigen::Matrix3d::Identity() + skew / 2 + skew * skew / 6;
+  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * skew +
+         (angle - std::sin(angle)) / (angle2 * angle) * skew * skew;
+}
+
 Rigid3 Displaced(const Rigid3& b_from_a, const Vector6d& displacement_in_b) {
   const Eigen::Quaterniond turn = RotationFromVector(displacement_in_b.tail<3>());
   return {(turn * b_from_a.rotation).normalized(), b_from_a.translation + displacement_in_b.head<3>()};

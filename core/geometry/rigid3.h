@@ -32,6 +32,10 @@ Eigen::Quaterniond RotationFromVector(const Eigen::Vector3d& rotation_vector_rad
 // Inverse of RotationFromVector, of angle in [0, pi]; the quaternion's sign does not matter.
 Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& rotation);
 
+// Left Jacobian of the rotation group: Exp(omega + d) = Exp(LeftJacobian(omega) d) Exp(omega) in first order
+// of d. Its transpose, LeftJacobian(-omega), is the right one. Singular only at full turns.
+Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& rotation_vector_rad);
+
 // b_from_a moved by a small displacement (v, omega) expressed in b: rotation Exp(omega) R, translation t + v.
 Rigid3 Displaced(const Rigid3& b_from_a, const Vector6d& displacement_in_b);
 

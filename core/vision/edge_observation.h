@@ -26,6 +26,18 @@ struct EdgeObservation {
   double common_sigma_px = 0;
 };
 
+// Where the samples lie along their edge, from -1 (first) to 1 (last).
+inline Eigen::VectorXd PlacesAlong(const EdgeObservation& edge) {
+  const Eigen::Index count = static_cast<Eigen::Index>(edge.samples.size());
+  Eigen::VectorXd places = Eigen::VectorXd::Zero(count);
+  if (count < 2) return places;
+  const Eigen::Vector2d first = edge.samples.front().point_px;
+  const Eigen::Vector2d span = edge.samples.back().point_px - first;
+  for (Eigen::Index i = 0; i < count; ++i)
+    places[i] = 2 * span.dot(edge.samples[static_cast<size_t>(i)].point_px - first) / span.squaredNorm() - 1;
+  return places;
+}
+
 // One image's measurements: everything the estimator takes from it.
 struct ImageObservation {
   std::string name;

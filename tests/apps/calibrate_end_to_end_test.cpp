@@ -113,7 +113,7 @@ TEST_F(Calibrate, TurnsTheShippedSessionIntoAModelAReportAndASummary) {
 
 TEST_F(Calibrate, NamesTheScaleOfEachLegWhereThereAreOnlyEdges) {
   folder_.Write("out/model.yaml", "of an earlier run");
-  const ProgramRun run = RunOnIt({"--free-legs", "--hold", "focal-length", "--no-pictures"});
+  const ProgramRun run = RunOnIt({"--free-legs", "--no-pictures"});
   EXPECT_EQ(run.exit_code, kExitNoResult);
   EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
   const json document = json::parse(Bytes(out() / "calibration.json"));
@@ -128,6 +128,22 @@ TEST_F(Calibrate, NamesTheScaleOfEachLegWhereThereAreOnlyEdges) {
   EXPECT_EQ(CountNumbers(document.at("camera_from_base")).known, 0);
   EXPECT_THAT(run.out, Not(HasSubstr("±")));
   EXPECT_THAT(Bytes(out() / "report.html"), Not(HasSubstr("data:image/jpeg")));
+}
+
+TEST_F(Calibrate, TakesTagsAsObservationsWhereAskedTo) {
+  const ProgramRun run = RunOnIt({"--no-readings", "--tags", "all", "--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitSuccess) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Tags platform_tag as observations: 16 seen"));
+  const json document = json::parse(Bytes(out() / "calibration.json"));
+  EXPECT_EQ(document.at("options"), "--tags all --no-readings --folds 0");
+  ASSERT_EQ(document.at("tags").size(), 2u);
+  for (const json& group : document.at("tags")) {
+    EXPECT_LT(group.at("sigma_px"), 0.1);
+    EXPECT_LT(group.at("placement_sigmas"), 2);
+    EXPECT_EQ(group.at("tags_left_out"), 0);
+  }
+  for (const json& check : document.at("tag_checks")) EXPECT_EQ(check.at("took_part"), true);
+  for (const json& leg : document.at("legs")) ExpectNumbers(leg.at("radius_m"), 1);
 }
 
 TEST_F(Calibrate, SaysInOneLineThatOneImageIsTooFew) {
@@ -163,6 +179,14 @@ TEST_F(Calibrate, LeavesADamagedImageOutWithAWarningAndItsReason) {
   ASSERT_EQ(document.at("images_left_out").size(), 1u);
   EXPECT_EQ(document.at("images_left_out").at(0).at("name"), "001.png");
   EXPECT_NE(document.at("images_left_out").at(0).at("reason"), "");
+}
+
+TEST_F(Calibrate, LeavesAnImageOutWhoseReadingsLeadToNoPose) {
+  KeepImages(3);
+  Edit("joints.csv", "001.png,0.44459822", "001.png,0.04459822");
+  const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
+  EXPECT_THAT(run.err, HasSubstr("001.png: left out: no pose of the platform has its joint readings\n"));
+  EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("images_used"), 2);
 }
 
 TEST_F(Calibrate, SaysWhichImagesHaveNoRowInJointsCsv) {

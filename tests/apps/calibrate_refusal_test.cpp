@@ -106,6 +106,13 @@ TEST_F(CalibrateRefuses, BadUsageNamingTheOptionAndTheHelp) {
   refused({"--threads", "0"}, "--threads");
 }
 
+TEST_F(CalibrateRefuses, TagsThatTheSessionDoesNotHave) {
+  ExpectRefusal(RunOnIt({"--tags", "bord"}),
+                HasSubstr("\"bord\" is none of the session's groups base_board, platform_tag"));
+  ExpectRefusal(RunOnIt({"--tags", "platform_tag", "--free-legs"}),
+                HasSubstr("\"platform_tag\" is on the platform"));
+}
+
 TEST_F(CalibrateRefuses, ToRunWithoutASession) {
   ExpectRefusal(RunLegible({"calibrate"}), HasSubstr("SESSION is required; see `legible calibrate --help`"));
 }

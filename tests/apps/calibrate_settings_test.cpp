@@ -59,10 +59,52 @@ TEST(CalibrateSettings, WithFreeLegsNeitherReadingsNorPlatformCount) {
   CalibrateSettings settings;
   settings.free_legs = true;
   settings.hold = {"radii"};
-  const SessionCalibrationOptions options = ToOptions(settings, KnownRadius());
+  Session session;
+  session.known = KnownRadius();
+  const SessionCalibrationOptions options = ToOptions(settings, session);
   EXPECT_FALSE(options.estimation.use_joint_readings);
   EXPECT_FALSE(options.estimation.rigid_platform);
   EXPECT_TRUE(options.estimation.hold.radii);
+}
+
+Session SessionWithTags() {
+  Session session;
+  session.tags = TagLayout{"tag36h11", {TagGroup(), TagGroup()}};
+  session.tags->groups[0].name = "board";
+  session.tags->groups[1].name = "top";
+  session.tags->groups[1].carrier = TagCarrier::kPlatform;
+  return session;
+}
+
+TEST(CalibrateSettings, TagsTakePartWhereNamed) {
+  const Session session = SessionWithTags();
+  CalibrateSettings settings;
+  EXPECT_TRUE(TagGroupsOf(settings, session).empty());
+  settings.tags = {"top"};
+  EXPECT_EQ(TagGroupsOf(settings, session), std::set<std::string>{"top"});
+  settings.tags = {"all"};
+  EXPECT_EQ(TagGroupsOf(settings, session), (std::set<std::string>{"board", "top"}));
+  settings.free_legs = true;
+  EXPECT_EQ(TagGroupsOf(settings, session), std::set<std::string>{"board"});
+}
+
+TEST(CalibrateSettings, TagsThatAreNotThereOrOfNoUseAreRefused) {
+  CalibrateSettings settings;
+  settings.tags = {"botom"};
+  EXPECT_THROW(TagGroupsOf(settings, SessionWithTags()), std::invalid_argument);
+  settings.tags = {"all"};
+  EXPECT_THROW(TagGroupsOf(settings, Session()), std::invalid_argument);
+  settings.tags = {"top"};
+  settings.free_legs = true;
+  EXPECT_THROW(TagGroupsOf(settings, SessionWithTags()), std::invalid_argument);
+}
+
+TEST(CalibrateSettings, TagsSetTheScaleOfARigidPlatform) {
+  CalibrateSettings settings;
+  settings.use_readings = false;
+  EXPECT_FALSE(AssumesRigidPlatform(settings, {}));
+  settings.tags = {"all"};
+  EXPECT_TRUE(AssumesRigidPlatform(settings, {}));
 }
 
 TEST(CalibrateSettings, EveryNameOfAThingToHoldHoldsAnother) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "calib/calibrated_model.h"
-#include "calib/held_out.h"
+#include "tests/calib/synthetic_tags.h"
 #include "tests/calib/truth_problem.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
@@ -220,37 +220,6 @@ TEST(LegCalibration, RejectsSamplesWithoutAFiniteSigma) {
   }
 }
 
-// Against the rigid fit of the drawing to moved joints.
-TEST(DifferentiateBase, IsTheDerivativeOfTheFit) {
-  std::mt19937_64 generator = TestGenerator();
-  const SyntheticSession session = GenerateSession(FewImages());
-  const LegCalibration found = CalibrateLegs(InputOf(session, session.observations), {});
-  const BaseFromShared derivative = DifferentiateBase(found);
-  Eigen::VectorXd direction = Eigen::VectorXd::Zero(kSharedParameterCount);
-  for (int leg = 0; leg < kLegCount; ++leg)
-    direction.segment<3>(FirstParameterOfLeg(leg)) = UniformVector(generator, -1, 1);
-  constexpr double kStep_m = 1e-5;
-  const auto fitted = [&](double step_m) {
-    std::vector<Eigen::Vector3d> moved(found.base_joints_in_camera_m.begin(),
-                                       found.base_joints_in_camera_m.end());
-    for (int leg = 0; leg < kLegCount; ++leg)
-      moved[static_cast<size_t>(leg)] += step_m * direction.segment<3>(FirstParameterOfLeg(leg));
-    const Rigid3 camera_from_base =
-        FitRigid({found.drawn_base_joints_m.begin(), found.drawn_base_joints_m.end()}, moved);
-    Eigen::VectorXd joints(18);
-    for (int leg = 0; leg < kLegCount; ++leg)
-      joints.segment<3>(3 * leg) = Inverse(camera_from_base) * moved[static_cast<size_t>(leg)];
-    return std::pair(camera_from_base, joints);
-  };
-  const auto [before, joints_before] = fitted(-kStep_m);
-  const auto [after, joints_after] = fitted(kStep_m);
-  EXPECT_TRUE(AreNear(derivative.joints * direction, (joints_after - joints_before) / (2 * kStep_m), 1e-7));
-  const Eigen::AngleAxisd turn(after.rotation * before.rotation.conjugate());
-  Vector6d placement;
-  placement << after.translation - before.translation, turn.angle() * turn.axis();
-  EXPECT_TRUE(AreNear(derivative.placement * direction, placement / (2 * kStep_m), 1e-7));
-}
-
 TEST(LegCalibration, HeldBaseJointsKeepTheirShapeWhileTheBaseIsPlaced) {
   const SyntheticSession session = GenerateSession(FewImages());
   LegCalibrationInput input = InputOf(session, session.exact_observations);
@@ -266,13 +235,55 @@ TEST(LegCalibration, HeldBaseJointsKeepTheirShapeWhileTheBaseIsPlaced) {
   EXPECT_FALSE(AreNear(input.camera_from_base.translation, session.true_camera_from_base.translation, 1e-4));
 }
 
-// Which images are left out together.
-TEST(FoldsOf, AreEveryNthImageOrAsManyDrawnFromTheSeed) {
-  EXPECT_EQ(FoldsOf(7, 3, std::nullopt), (std::vector<int>{0, 1, 2, 0, 1, 2, 0}));
-  const std::vector<int> drawn = FoldsOf(40, 5, 3);
-  EXPECT_EQ(drawn, FoldsOf(40, 5, 3));
-  EXPECT_NE(drawn, FoldsOf(40, 5, 4));
-  for (int fold = 0; fold < 5; ++fold) EXPECT_EQ(std::count(drawn.begin(), drawn.end(), fold), 8);
+// Without readings and radii nothing but the tags says how large the robot is.
+TEST(LegCalibration, TagsSetTheScaleThatEdgesLeaveOpen) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.exact_observations);
+  LegCalibrationOptions options;
+  options.use_joint_readings = false;
+  EXPECT_EQ(CalibrateLegs(input, options).status, CalibrationStatus::kUnobservable);
+  input.tags = DrawTags(session, {.corner_sigma_px = 0});
+  const LegCalibration found = CalibrateLegs(input, options);
+  ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  for (size_t i = 0; i < kLegCount; ++i)
+    EXPECT_NEAR(found.robot.legs[i].radius_m, session.true_robot.legs[i].radius_m, 1e-7);
+}
+
+TEST(LegCalibration, TagsMakeTheRestMoreCertain) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  const LegCalibration without = CalibrateLegs(input, {});
+  input.tags = DrawTags(session, {});
+  const LegCalibration with = CalibrateLegs(input, {});
+  ASSERT_EQ(with.status, CalibrationStatus::kConverged) << with.message;
+  EXPECT_LT(with.observability.covariance(0, 0), 0.5 * without.observability.covariance(0, 0));
+  ASSERT_EQ(with.tags.size(), 2U);
+  EXPECT_EQ(with.tags[0].tags, 3);
+  EXPECT_EQ(with.tags[1].tags, 12);
+  EXPECT_LT(with.tags[1].placement_sigmas, 3);
+  EXPECT_NEAR(with.tag_sigma_px, 0.05, 0.01);
+}
+
+TEST(LegCalibration, MisreadTagsAreLeftOutAndCounted) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  input.tags = DrawTags(session, {.misread_fraction = 0.25});
+  const LegCalibration found = CalibrateLegs(input, {});
+  ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  EXPECT_GT(found.tags[1].tags_left_out, 0);
+  EXPECT_LT(found.tags[1].tags_left_out, 7);
+  EXPECT_NEAR(found.tag_sigma_px, 0.05, 0.015);
+}
+
+TEST(LegCalibration, RejectsTagsThatDoNotFitTheRest) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  input.tags = DrawTags(session, {});
+  LegCalibrationOptions free_legs;
+  free_legs.rigid_platform = false;
+  EXPECT_THROW(CalibrateLegs(input, free_legs), std::invalid_argument);
+  input.tags[0].detections.pop_back();
+  EXPECT_THROW(CalibrateLegs(input, {}), std::invalid_argument);
 }
 
 TEST(ToModel, ListsTheCovarianceOfWhatWasEstimatedOnly) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "calib/shared_information.h"
 #include "tests/calib/truth_problem.h"
 #include "tests/testing/matrices.h"
 
@@ -127,6 +128,18 @@ TEST(Observability, HoldingAThingRemovesItsRows) {
   EXPECT_TRUE(found.unobservable.empty()) << Descriptions(found.unobservable);
   const int radius = FirstParameterOfLeg(0) + leg_parameter::kRadius;
   EXPECT_LT(std::sqrt(found.covariance(radius, radius)), radius_sigma_m);
+}
+
+TEST(Observability, WhereAllIsHeldAllIsKnown) {
+  SyntheticOptions options;
+  options.image_count = 2;
+  const SyntheticSession session = GenerateSession(options);
+  EstimationProblem problem = ProblemAtTruth(session, session.observations, {});
+  problem.free.reset();
+  const Observability found = AnalyseObservability(problem);
+  EXPECT_TRUE(found.unobservable.empty());
+  EXPECT_EQ(found.covariance.norm(), 0);
+  EXPECT_EQ(std::count(found.known.begin(), found.known.end(), true), kSharedParameterCount);
 }
 
 }  // namespace

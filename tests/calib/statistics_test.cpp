@@ -11,6 +11,7 @@
 #include <unsupported/Eigen/SpecialFunctions>
 
 #include "calib/leg_calibration.h"
+#include "tests/calib/synthetic_tags.h"
 #include "tests/calib/truth_problem.h"
 
 namespace legible {
@@ -45,11 +46,15 @@ struct Estimate {
 // A session whose noise is drawn again and again.
 class Experiment {
  public:
-  explicit Experiment(const SyntheticOptions& options)
+  explicit Experiment(const SyntheticOptions& options,
+                      const std::optional<SyntheticTagOptions>& tags = std::nullopt)
       : options_(options),
+        tags_(tags),
         session_(GenerateSession(options)),
-        problem_(ProblemAtTruth(session_, session_.exact_observations, {})),
+        problem_(ProblemAtTruth(session_, session_.exact_observations,
+                                {.lasting_shading_px = options.lasting_shading_px})),
         free_(FreeIndices(problem_)) {
+    if (tags) AddTagsToProblem(DrawTags(session_, *tags), tags->corner_sigma_px, problem_);
     const Eigen::MatrixXd covariance = AnalyseObservability(problem_).covariance;
     bound_ = covariance.diagonal()(free_).cwiseSqrt();
     basis_ = GaugeBasis(problem_, free_, bound_);
@@ -82,13 +87,18 @@ class Experiment {
                               {},
                               {}};
     input.known.joint_reading_m = options_.joint_reading_sigma_m;
+    if (tags_) {
+      SyntheticTagOptions drawn = *tags_;
+      drawn.noise_seed = static_cast<std::uint64_t>(noise_seed);
+      input.tags = DrawTags(session_, drawn);
+    }
     LegCalibrationOptions calibration_options;
     calibration_options.threads = 1;
     const LegCalibration found = CalibrateLegs(input, calibration_options);
 
     Estimate estimate;
     estimate.converged = found.status == CalibrationStatus::kConverged;
-    estimate.error = (ParametersOf(found) - AsVector(problem_.shared))(free_);
+    estimate.error = (ParametersOf(found) - AsVector(Truth(noise_seed)))(free_);
     const Eigen::MatrixXd covariance = found.observability.covariance(free_, free_);
     estimate.sigma = covariance.diagonal().cwiseSqrt();
     const Eigen::MatrixXd relative =
@@ -96,6 +106,14 @@ class Experiment {
     const Eigen::VectorXd in_gauge = basis_.transpose() * estimate.error.cwiseQuotient(bound_);
     estimate.squared_error = in_gauge.dot((basis_.transpose() * relative * basis_).ldlt().solve(in_gauge));
     return estimate;
+  }
+
+  // Shading is drawn with the noise.
+  SharedParameters Truth(int noise_seed) const {
+    SharedParameters truth = problem_.shared;
+    const auto shading = DrawLastingShading(options_, static_cast<std::uint64_t>(noise_seed));
+    for (size_t i = 0; i < kLegCount; ++i) truth.legs[i].segment<4>(leg_parameter::kShading) = shading[i];
+    return truth;
   }
 
   static Eigen::VectorXd AsVector(const SharedParameters& shared) {
@@ -116,6 +134,7 @@ class Experiment {
   }
 
   SyntheticOptions options_;
+  std::optional<SyntheticTagOptions> tags_;
   SyntheticSession session_;
   EstimationProblem problem_;
   std::vector<int> free_;
@@ -187,25 +206,21 @@ TEST(Statistics, KolmogorovSmirnovDistributionMatchesItsTable) {
   EXPECT_NEAR(KolmogorovSmirnovP(1.6276 / 1000, 1e6), 0.01, 1e-4);
 }
 
-TEST(CalibrationStatistics, EstimatesReachTheCramerRaoBoundAndReportIt) {
-  constexpr int kRuns = 400;
-  const Experiment experiment{SyntheticOptions()};
-  const std::vector<Estimate> estimates = experiment.Run(kRuns);
-  ASSERT_EQ(ConvergedCount(estimates), kRuns);
-
+// The bars of a correct estimator: no worse than the bound, and the reported covariance that of the errors.
+void ExpectEfficientAndHonest(const Experiment& experiment, int runs, double each) {
+  const std::vector<Estimate> estimates = experiment.Run(runs);
+  ASSERT_EQ(ConvergedCount(estimates), runs);
   const Scatter scatter = ScatterOverBound(estimates, experiment.bound());
   EXPECT_GE(scatter.pooled, 0.95);
   EXPECT_LE(scatter.pooled, 1.05);
-  for (Eigen::Index i = 0; i < scatter.of_parameter.size(); ++i) {
-    EXPECT_GE(scatter.of_parameter[i], 0.85) << experiment.Name(i);
-    EXPECT_LE(scatter.of_parameter[i], 1.15) << experiment.Name(i);
-  }
+  for (Eigen::Index i = 0; i < scatter.of_parameter.size(); ++i)
+    EXPECT_NEAR(scatter.of_parameter[i], 1, each) << experiment.Name(i);
 
   std::vector<double> squared_errors;
   double mean = 0;
   for (const Estimate& estimate : estimates) {
     squared_errors.push_back(estimate.squared_error);
-    mean += estimate.squared_error / kRuns;
+    mean += estimate.squared_error / runs;
   }
   const double degrees_of_freedom = static_cast<double>(experiment.rank());
   const double p = ChiSquaredP(squared_errors, degrees_of_freedom);
@@ -219,6 +234,26 @@ TEST(CalibrationStatistics, EstimatesReachTheCramerRaoBoundAndReportIt) {
             << " to " << scatter.of_parameter.maxCoeff() << "\nsquared error: mean " << mean << " of "
             << degrees_of_freedom << ", Kolmogorov-Smirnov p " << p << "\n95 % intervals cover " << coverage
             << std::endl;
+}
+
+TEST(CalibrationStatistics, EstimatesReachTheCramerRaoBoundAndReportIt) {
+  ExpectEfficientAndHonest(Experiment{SyntheticOptions()}, 400, 0.15);
+}
+
+// Of half as many images; a standard deviation from 150 runs is good to 6 %, the largest of 60 to some 20 %.
+TEST(CalibrationStatistics, EstimatesReachTheBoundWhereShadingMovesWholeEdges) {
+  SyntheticOptions options;
+  options.image_count = 20;
+  options.edge_sigma_px = 0.1;
+  options.common_edge_sigma_px = 0.03;
+  options.lasting_shading_px = 0.03;
+  ExpectEfficientAndHonest(Experiment{options}, 150, 0.2);
+}
+
+TEST(CalibrationStatistics, EstimatesReachTheBoundWithTagsAsObservations) {
+  SyntheticOptions options;
+  options.image_count = 20;
+  ExpectEfficientAndHonest(Experiment(options, SyntheticTagOptions()), 150, 0.2);
 }
 
 TEST(CalibrationStatistics, OutliersInAFifthOfTheSamplesCostLessThanHalfTheBound) {

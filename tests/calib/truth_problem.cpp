@@ -13,6 +13,8 @@ std::bitset<kSharedParameterCount> FreeParameters(const TruthProblemOptions& opt
       free.set(first + leg_parameter::kPlatformJoint + i, options.rigid_platform);
     }
     free.set(first + leg_parameter::kRadius);
+    for (size_t i = 0; i < 4; ++i)
+      free.set(first + leg_parameter::kShading + i, options.lasting_shading_px > 0);
     free.set(first + leg_parameter::kJointOffset, options.rigid_platform && options.joint_readings);
   }
   return free;
@@ -63,6 +65,10 @@ EstimationProblem ProblemAtTruth(const SyntheticSession& session,
     problem.drawn_base_joints[i] = session.nominal_robot.legs[i].base_joint_m;
     problem.drawn_platform_joints[i] = session.nominal_robot.legs[i].platform_joint_m;
   }
+  for (int leg = 0; leg < kLegCount && options.lasting_shading_px > 0; ++leg)
+    for (int i = 0; i < 4; ++i)
+      problem.priors.push_back(
+          {FirstParameterOfLeg(leg) + leg_parameter::kShading + i, 0, options.lasting_shading_px});
   const Rigid3 platform_from_gauge = Inverse(GaugeFromPlatform(session));
   for (size_t image = 0; image < observations.size(); ++image) {
     PoseUnit whole{

@@ -18,11 +18,13 @@ struct TruthProblemOptions {
   bool rigid_platform = true;
   bool joint_readings = true;
   double joint_reading_sigma_m = 2e-5;
+  double lasting_shading_px = 0;  // 0: none is estimated
   EdgeNoise noise = {};
 };
 
 // What CalibrateLegs would solve for these observations of the session (Brown-Conrady lens, nothing else
-// known), with every unknown at its true value. Points into `observations`, which must outlive it.
+// known, no lasting shading), with every unknown at its true value. Points into `observations`, which must
+// outlive it.
 EstimationProblem ProblemAtTruth(const SyntheticSession& session,
                                  const std::vector<ImageObservation>& observations,
                                  const TruthProblemOptions& options);

@@ -53,6 +53,17 @@ TEST(Rigid3, InverseUndoesFromBothSides) {
   }
 }
 
+TEST(Rigid3, LeftJacobianTakesASmallChangeOfTheVectorToTheTurnBeforeIt) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const double size : {0.0, 1e-6, 1e-4, 0.3, 3.0}) {
+    const Eigen::Vector3d vector = size * UniformVector(generator, -1, 1).normalized();
+    const Eigen::Vector3d change = 1e-6 * UniformVector(generator, -1, 1);
+    const Eigen::Quaterniond before =
+        RotationFromVector(vector + change) * RotationFromVector(vector - change).conjugate();
+    EXPECT_TRUE(AreNear(LeftJacobian(vector) * change, VectorFromRotation(before) / 2, 1e-14)) << size;
+  }
+}
+
 TEST(Rigid3, SkewIsTheCrossProduct) {
   std::mt19937_64 generator = TestGenerator();
   const Eigen::Vector3d a = UniformVector(generator, -1, 1), b = UniformVector(generator, -1, 1);

@@ -1,0 +1,102 @@
+#include "calib/tag_model.h"
+
+#include <Eigen/LU>
+
+namespace legible {
+namespace {
+
+// A point with its derivatives by the displacement of the transform that took it there.
+struct MovedPoint {
+  Eigen::Vector3d x;
+  Eigen::Matrix<double, 3, 6> d_displacement;
+};
+
+MovedPoint Move(const Rigid3& b_from_a, const Vector6d& displacement, const Eigen::Vector3d& x_in_a) {
+  const Rigid3 moved = Displaced(b_from_a, displacement);
+  const Eigen::Vector3d turned = moved.rotation * x_in_a;
+  MovedPoint result{turned + moved.translation, {}};
+  result.d_displacement << Eigen::Matrix3d::Identity(), -Skew(turned) * LeftJacobian(displacement.tail<3>());
+  return result;
+}
+
+struct ProjectedPoint {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> d_x;
+  Eigen::Matrix<double, 2, kCameraParameterCount> d_camera;
+};
+
+ProjectedPoint ProjectWithJacobians(const CameraParameters& camera, const Eigen::Vector3d& x_in_camera) {
+  const Eigen::Vector2d normalised = x_in_camera.hnormalized();
+  const DistortedPoint lens = DistortWithJacobians(camera.tail<8>(), normalised);
+  const Eigen::Vector2d focal = camera.head<2>();
+  Eigen::Matrix<double, 2, 3> d_normalised;
+  d_normalised << Eigen::Matrix2d::Identity(), -normalised;
+  ProjectedPoint result;
+  result.pixel = focal.cwiseProduct(lens.point) + camera.segment<2>(2);
+  result.d_x = focal.asDiagonal() * lens.d_point_d_undistorted * d_normalised / x_in_camera.z();
+  result.d_camera << Eigen::Matrix2d(lens.point.asDiagonal()), Eigen::Matrix2d::Identity(),
+      focal.asDiagonal() * lens.d_point_d_coefficients;
+  return result;
+}
+
+}  // namespace
+
+std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const TagPlacement& placement,
+                                        const Vector6d& placement_displacement,
+                                        const Rigid3& camera_from_platform, const Vector6d& pose_displacement,
+                                        const TagObservation& observation) {
+  TagResiduals result;
+  result.d_pose.setZero();
+  for (size_t k = 0; k < observation.corners_px.size(); ++k) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
+    MovedPoint corner =
+        Move(placement.parent_from_group, placement_displacement, observation.corners_in_group_m[k]);
+    Eigen::Matrix<double, 3, 6> d_pose = Eigen::Matrix<double, 3, 6>::Zero();
+    if (placement.carrier == TagCarrier::kPlatform) {
+      const MovedPoint on_platform = Move(camera_from_platform, pose_displacement, corner.x);
+      const Eigen::Quaterniond turn = Displaced(camera_from_platform, pose_displacement).rotation;
+      corner = {on_platform.x, turn.toRotationMatrix() * corner.d_displacement};
+      d_pose = on_platform.d_displacement;
+    }
+    if (!(corner.x.z() > 0)) return std::nullopt;
+    const ProjectedPoint projected = ProjectWithJacobians(camera, corner.x);
+    result.residual.segment<2>(row) = projected.pixel - observation.corners_px[k];
+    result.d_camera.middleRows<2>(row) = projected.d_camera;
+    result.d_placement.middleRows<2>(row) = projected.d_x * corner.d_displacement;
+    result.d_pose.middleRows<2>(row) = projected.d_x * d_pose;
+  }
+  result.residual /= observation.sigma_px;
+  result.d_camera /= observation.sigma_px;
+  result.d_placement /= observation.sigma_px;
+  result.d_pose /= observation.sigma_px;
+  return result;
+}
+
+PlacementResiduals EvaluatePlacement(const TagPlacement& placement, const Vector6d& placement_displacement,
+                                     const BaseFrame& base) {
+  const bool on_base = placement.carrier == TagCarrier::kBase;
+  const Rigid3 drawn = on_base ? base.camera_from_base * placement.drawn_carrier_from_group
+                               : placement.drawn_carrier_from_group;
+  const Rigid3 found = Displaced(placement.parent_from_group, placement_displacement);
+  const Vector6d off = Displacement(drawn, found);
+  const Eigen::Vector3d turn = off.tail<3>();
+  PlacementResiduals result{off, Matrix6d::Zero(), Eigen::Matrix<double, 6, 18>::Zero()};
+  // found = Exp(turn) drawn: what turns `found` acts from the left, what turns `drawn` from the right.
+  result.d_placement.topLeftCorner<3, 3>().setIdentity();
+  result.d_placement.bottomRightCorner<3, 3>() =
+      LeftJacobian(turn).inverse() * LeftJacobian(placement_displacement.tail<3>());
+  if (on_base) {
+    const Eigen::Vector3d arm = drawn.translation - base.camera_from_base.translation;
+    result.d_base_joints << -base.d_joints.topRows<3>() + Skew(arm) * base.d_joints.bottomRows<3>(),
+        -LeftJacobian(-turn).inverse() * base.d_joints.bottomRows<3>();
+  }
+  Vector6d information;
+  information << Eigen::Vector3d::Constant(1 / placement.translation_sigma_m),
+      Eigen::Vector3d::Constant(1 / placement.rotation_sigma_rad);
+  result.residual = information.asDiagonal() * result.residual;
+  result.d_placement = information.asDiagonal() * result.d_placement;
+  result.d_base_joints = information.asDiagonal() * result.d_base_joints;
+  return result;
+}
+
+}  // namespace legible

@@ -1,0 +1,75 @@
+#include "calib/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include "datasets/synthetic_session.h"
+
+namespace legible {
+namespace {
+
+struct Setting {
+  std::string name;
+  bool use_joint_readings, rigid_platform;
+};
+
+// Readings, a rigid platform without readings, and legs whose directions are free: in all three the edges of
+// an image that was held out must be predicted as well as their noise lets them.
+class HeldOutImages : public testing::TestWithParam<Setting> {
+ protected:
+  HeldOutImages() {
+    SyntheticOptions synthetic;
+    synthetic.image_count = 20;
+    session_ = GenerateSession(synthetic);
+    options_.use_joint_readings = GetParam().use_joint_readings;
+    options_.rigid_platform = GetParam().rigid_platform;
+    // Without readings nothing else says how large the robot is; without a rigid platform what the camera is.
+    options_.hold.radii = !options_.use_joint_readings;
+    options_.hold.focal_length = options_.hold.principal_point = options_.hold.distortion =
+        !options_.rigid_platform;
+  }
+
+  HeldOut Run(const std::vector<ImageObservation>& observations) const {
+    LegCalibrationInput input{
+        session_.nominal_robot, session_.true_camera, session_.true_camera_from_base, observations, {}, {}};
+    for (size_t i = 0; i < kLegCount; ++i)
+      input.drawing.legs[i].radius_m = session_.true_robot.legs[i].radius_m;
+    input.known.joint_reading_m = 2e-5;
+    const LegCalibration solution = CalibrateLegs(input, options_);
+    EXPECT_EQ(solution.status, CalibrationStatus::kConverged) << solution.message;
+    return CrossValidate(input, solution, options_, FoldsOf(observations.size(), 4, std::nullopt));
+  }
+
+  SyntheticSession session_;
+  LegCalibrationOptions options_;
+};
+
+TEST_P(HeldOutImages, ArePredictedExactlyFromExactObservations) {
+  const HeldOut held_out = Run(session_.exact_observations);
+  ASSERT_TRUE(held_out.rms_px);
+  EXPECT_LT(*held_out.rms_px, 1e-4);
+}
+
+TEST_P(HeldOutImages, ArePredictedToHardlyMoreThanTheirNoise) {
+  const HeldOut held_out = Run(session_.observations);
+  ASSERT_TRUE(held_out.rms_px);
+  EXPECT_GT(*held_out.rms_px, 0.27);
+  EXPECT_LT(*held_out.rms_px, 0.36);
+  for (const auto& of_image : held_out.image_rms_px) EXPECT_TRUE(of_image);
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, HeldOutImages,
+                         testing::Values(Setting{"Readings", true, true}, Setting{"Platform", false, true},
+                                         Setting{"FreeLegs", false, false}),
+                         [](const auto& setting) { return setting.param.name; });
+
+// Which images are left out together.
+TEST(FoldsOf, AreEveryNthImageOrAsManyDrawnFromTheSeed) {
+  EXPECT_EQ(FoldsOf(7, 3, std::nullopt), (std::vector<int>{0, 1, 2, 0, 1, 2, 0}));
+  const std::vector<int> drawn = FoldsOf(40, 5, 3);
+  EXPECT_EQ(drawn, FoldsOf(40, 5, 3));
+  EXPECT_NE(drawn, FoldsOf(40, 5, 4));
+  for (int fold = 0; fold < 5; ++fold) EXPECT_EQ(std::count(drawn.begin(), drawn.end(), fold), 8);
+}
+
+}  // namespace
+}  // namespace legible
