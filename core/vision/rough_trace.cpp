@@ -1,5 +1,7 @@
 #include "core/vision/rough_trace.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/vision/edge_band.h"
@@ -17,23 +19,34 @@ struct RoughPlace {
   double share = 0;
   Eigen::Vector2d centre_px, normal_px;  // of the predicted curve there
   double outward_px = 0;
-  double step = 0;  // grey levels over two bins, signed: positive where the leg is brighter
+  double step = 0;    // grey levels over two bins, signed: positive where the leg is brighter
+  double weight = 0;  // its square root
 };
 
-std::optional<RoughPlace> StrongestStep(const EdgeProfile& profile, const BandCell& middle) {
-  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0};
-  for (size_t i = 2; i + 2 < profile.size(); ++i) {
-    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 ||
-        profile[i + 1].count == 0)
-      continue;
-    const double step = (profile[i].brightness + profile[i + 1].brightness - profile[i - 1].brightness -
-                         profile[i - 2].brightness) /
-                        2;
-    if (std::abs(step) <= std::abs(best.step)) continue;
-    best.step = step;
-    best.outward_px = -(profile[i].inside_px + profile[i - 1].inside_px) / 2;
+// Grey levels by which the two bins from i on are brighter than the two before, nothing beside an empty bin.
+std::optional<double> StepBefore(const BandBins& bins, size_t i) {
+  const auto mean = [&](size_t at) { return bins[at].MeanBrightness(); };
+  for (size_t at = i - 2; at < i + 2; ++at)
+    if (bins[at].count == 0) return std::nullopt;
+  return (mean(i) + mean(i + 1) - mean(i - 1) - mean(i - 2)) / 2;
+}
+
+// The strongest step, between bins by the parabola through its neighbours.
+std::optional<RoughPlace> StrongestStep(const BandBins& bins, const BinGrid& grid, const BandCell& middle) {
+  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0, 0};
+  std::vector<double> steps(bins.size(), 0);
+  size_t at = 0;
+  for (size_t i = 2; i + 2 < bins.size(); ++i) {
+    steps[i] = StepBefore(bins, i).value_or(0);
+    if (std::abs(steps[i]) > std::abs(steps[at])) at = i;
   }
-  if (best.step == 0) return std::nullopt;
+  if (at == 0) return std::nullopt;
+  best.step = steps[at];
+  best.weight = std::sqrt(std::abs(best.step));
+  const double before = std::abs(steps[at - 1]), after = std::abs(steps[at + 1]), peak = std::abs(best.step);
+  const double curvature = 2 * peak - before - after;
+  const double between = curvature > 0 ? std::clamp((after - before) / (2 * curvature), -0.5, 0.5) : 0;
+  best.outward_px = -(grid.Middle(at) + (between - 0.5) * grid.width_px);
   return best;
 }
 
@@ -68,13 +81,31 @@ RoughCurve Consensus(const std::vector<RoughPlace>& places, double largest_bend_
         RoughCurve curve = CurveThrough(a, b, bend);
         for (const RoughPlace& place : places) {
           if (!curve.Agrees(place)) continue;
-          curve.support += std::sqrt(std::abs(place.step));
+          curve.support += place.weight;
           ++curve.count;
         }
         if (curve.support > best.support) best = curve;
+        if (best.count == static_cast<int>(places.size())) return best;
       }
     }
   return best;
+}
+
+// The curve of the same bend that lies closest to the places that agree with it, a strong step counting for
+// more.
+RoughCurve Settled(RoughCurve curve, const std::vector<RoughPlace>& places) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  for (const RoughPlace& place : places) {
+    if (!curve.Agrees(place)) continue;
+    const Eigen::Vector2d row(1, place.share);
+    information += std::abs(place.step) * row * row.transpose();
+    moment += std::abs(place.step) * row * (place.outward_px - curve.At(place.share));
+  }
+  const Eigen::Vector2d change = information.inverse() * moment;
+  curve.at_a_px += change[0];
+  curve.slope_px += change[1];
+  return curve;
 }
 
 }  // namespace
@@ -83,15 +114,18 @@ std::optional<RoughTrace> TraceRoughly(const GrayImage& image, const PredictedEd
                                        const RoughTraceOptions& options) {
   const double reach = options.search_px + 2;
   const EdgeBand band = CollectBand(image, edge.points, reach, reach);
+  const BinGrid grid{reach, reach, kBin_px};
   std::vector<RoughPlace> places;
   for (const auto& [first, last] : Stretches(band, kStretch_px, options.step_px)) {
-    const EdgeProfile profile = BinProfile(band, first, last, reach, reach, kBin_px);
-    if (const auto place = StrongestStep(profile, band.cells[(first + last) / 2])) places.push_back(*place);
+    const BandBins bins = BinBand(band, first, last, grid);
+    if (const auto place = StrongestStep(bins, grid, band.cells[(first + last) / 2]))
+      places.push_back(*place);
   }
   const RoughCurve curve = Consensus(places, options.bend_px);
   if (curve.count < kFewestPlaces || curve.count < kLeastShare * static_cast<double>(places.size()))
     return std::nullopt;
-  RoughTrace trace{curve.At(0), curve.At(1), {}};
+  const RoughCurve settled = Settled(curve, places);
+  RoughTrace trace{settled.At(0), settled.At(1), {}};
   for (const RoughPlace& place : places)
     if (curve.Agrees(place))
       trace.samples.push_back(

@@ -118,7 +118,9 @@ TEST_F(Calibrate, NamesTheScaleOfEachLegWhereThereAreOnlyEdges) {
   EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
   const json document = json::parse(Bytes(out() / "calibration.json"));
   EXPECT_EQ(document.at("status"), "unobservable");
-  ASSERT_EQ(document.at("unobservable").size(), 6u) << document.at("unobservable");
+  // Edges of free legs say next to nothing of the focal length either: that may be named behind them.
+  ASSERT_GE(document.at("unobservable").size(), 6u) << document.at("unobservable");
+  ASSERT_LE(document.at("unobservable").size(), 7u) << document.at("unobservable");
   for (int leg = 1; leg <= 6; ++leg) {
     const std::string scale = "scale of leg " + std::to_string(leg) + " is free";
     EXPECT_THAT(document.at("unobservable").at(static_cast<size_t>(leg - 1)), HasSubstr(scale));
@@ -183,7 +185,8 @@ TEST_F(Calibrate, LeavesADamagedImageOutWithAWarningAndItsReason) {
 
 TEST_F(Calibrate, LeavesAnImageOutWhoseReadingsLeadToNoPose) {
   KeepImages(3);
-  Edit("joints.csv", "001.png,0.44459822", "001.png,0.04459822");
+  Edit("joints.csv", "001.png,0.44459822,0.46647168,0.45847603,0.44923659,0.37544442,0.42079856",
+       "001.png,0.28,0.55,0.28,0.55,0.28,0.55");
   const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
   EXPECT_THAT(run.err, HasSubstr("001.png: left out: no pose of the platform has its joint readings\n"));
   EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("images_used"), 2);
