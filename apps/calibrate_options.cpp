@@ -129,7 +129,7 @@ void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
   command.add_flag(
       "--free-legs", settings.free_legs,
       "Edges only: no readings, no rigid platform (each\nleg's direction is free in each image), and "
-      "nothing\nknown beforehand but by --known");
+      "nothing\nknown beforehand but by --known and --tags");
 }
 
 void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {

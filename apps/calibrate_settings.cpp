@@ -144,7 +144,10 @@ std::set<std::string> TagGroupsOf(const CalibrateSettings& settings, const Sessi
       throw std::invalid_argument(names.empty() ? "the session has no tags"
                                                 : fmt::format("\"{}\" is none of the session's groups {}",
                                                               name, fmt::join(names, ", ")));
-  if (all && there.empty()) throw std::invalid_argument("the session has no tags");
+  if (all && groups.empty())
+    throw std::invalid_argument(there.empty()
+                                    ? "the session has no tags"
+                                    : "with --free-legs only tags on the base count, and it has none there");
   return groups;
 }
 

@@ -107,7 +107,7 @@ json ChecksJson(const CalibrationRun& run) {
                       {"rms_px", check.rms_px},
                       {"mm", 1e3 * check.rms_m}});
   for (const TagGroupFit& fit : run.result.calibration.tags)
-    checks.push_back({{"name", "tags " + fit.group},
+    checks.push_back({{"name", "tags " + fit.group + " as observations"},
                       {"text", TagFitSentence(run.result.calibration, fit)},
                       {"rms_px", fit.rms_px}});
   const bool has_readings = run.options.estimation.use_joint_readings &&

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "calib/tag_weights.h"
@@ -167,7 +168,7 @@ class Calibrator {
     if (!EvaluateResiduals()) return false;
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
     UpdateWeights(edges_, noise_);
-    tag_sigma_px_ = MedianTagSigma(tag_errors_);
+    if (!tag_errors_.empty()) tag_sigma_px_ = MedianTagSigma(tag_errors_);
     for (int round = 0; round < kMaxRounds; ++round) {
       const SolveSummary summary = SolveRound();
       if (!EvaluateResiduals()) return false;
@@ -178,6 +179,8 @@ class Calibrator {
   }
 
   bool CanEvaluate() { return EvaluateResiduals(); }
+  // The first group that starts behind the camera; empty: none.
+  std::string TagsBehindCamera();
 
   LegCalibration Result() const;
   std::vector<TagGroupFit> TagFits() const;
@@ -203,7 +206,7 @@ class Calibrator {
   SolveSummary SolveRound();
   bool EvaluateResiduals();
   bool EvaluateTags();
-  void ReweightTags(int round);
+  double ReweightTags(int round);  // by how much the weights changed, in all
   bool Reweight(int round);
   EdgeNoise NoiseOf(const EdgeResidualSet& edge) const {
     EdgeNoise noise = noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
@@ -220,6 +223,12 @@ class Calibrator {
            PlacementUnknowns();  // of which each has a prior
   }
   int PlacementUnknowns() const { return 6 * static_cast<int>(problem_.tag_placements.size()); }
+  size_t SeenTagGroups() const {
+    std::set<size_t> seen;
+    for (size_t i = 0; i < tag_errors_.size(); ++i)
+      if (tag_errors_[i].weight > 0) seen.insert(tag_groups_[i]);
+    return seen.size();
+  }
   int TagRows() const { return kTagRows * static_cast<int>(tag_errors_.size()); }
 
   const LegCalibrationInput& input_;
@@ -290,6 +299,16 @@ void Calibrator::AddEdge(size_t image, size_t edge) {
     placements_.emplace_back(problem_.units.size() - kLegCount + leg, 0);
 }
 
+std::string Calibrator::TagsBehindCamera() {
+  std::string behind;
+  ForEachTag([&](size_t, const TagObservation& tag, const Rigid3& camera_from_platform) {
+    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+                               camera_from_platform, Vector6d::Zero(), tag);
+    if (!r && behind.empty()) behind = input_.tags[tag.group].group.name;
+  });
+  return behind;
+}
+
 void Calibrator::AddTags() {
   for (size_t group = 0; group < input_.tags.size(); ++group) {
     const ObservedTagGroup& observed = input_.tags[group];
@@ -322,11 +341,16 @@ bool Calibrator::EvaluateTags() {
   return all;
 }
 
-void Calibrator::ReweightTags(int round) {
-  if (tag_errors_.empty()) return;
+double Calibrator::ReweightTags(int round) {
+  if (tag_errors_.empty()) return 0;
+  const std::vector<TagErrors> before = tag_errors_;
   WeighTags(tag_errors_, tag_sigma_px_);
-  tag_sigma_px_ = round < kRoundsByMedian ? MedianTagSigma(tag_errors_)
-                                          : TagSigma(tag_errors_, problem_.tag_placements.size());
+  double change = 0;
+  for (size_t i = 0; i < before.size(); ++i)
+    change += kTagRows * std::abs(tag_errors_[i].weight - before[i].weight);
+  tag_sigma_px_ =
+      round < kRoundsByMedian ? MedianTagSigma(tag_errors_) : TagSigma(tag_errors_, SeenTagGroups());
+  return change;
 }
 
 SolveSummary Calibrator::SolveRound() {
@@ -372,14 +396,15 @@ bool Calibrator::Reweight(int round) {
   if (round < kRoundsByMedian) {
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
   } else {
-    // Of the freedom that all residuals have, readings, tags and priors use up what their own squares show.
-    const double fitted = UnknownCount() - readings_ - TagRows() - PriorRows() + OtherSquares();
+    // Of the freedom that all residuals have, readings and priors use up what their own squares show; tags,
+    // whose sigma comes from their own squares, what placing their groups takes.
+    const double fitted = UnknownCount() - readings_ - PriorRows() -
+                          6.0 * static_cast<double>(SeenTagGroups()) + OtherSquares();
     noise_ = EstimateNoise(edges_, std::max(fitted, 0.0));
   }
   UpdateWeights(edges_, noise_);
   const double tag_sigma_before_px = tag_sigma_px_;
-  ReweightTags(round);
-  double change = 0;
+  double change = ReweightTags(round);
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
   const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
@@ -407,11 +432,9 @@ double Calibrator::EdgeSigma() const {
   return samples_ > 0 ? std::sqrt(variance / samples_) : 0;
 }
 
-// Sum of squares, in sigmas, of the residuals of readings, tags and priors.
+// Sum of squares, in sigmas, of the residuals of readings and priors.
 double Calibrator::OtherSquares() const {
   double squares = ReadingSquares();
-  for (const TagErrors& tag : tag_errors_)
-    squares += tag.weight * (tag.error_px / tag_sigma_px_).squaredNorm();
   if (!problem_.tag_placements.empty()) {
     const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
     for (const TagPlacement& placement : problem_.tag_placements)
@@ -459,7 +482,7 @@ std::vector<TagGroupFit> Calibrator::TagFits() const {
       squares += tag_errors_[i].weight * tag_errors_[i].error_px.squaredNorm();
       weights += kTagRows * tag_errors_[i].weight;
     }
-    if (weights > 0) fit.rms_px = std::sqrt(squares / weights);
+    if (weights > 0) fit.rms_px = std::sqrt(2 * squares / weights);  // two coordinates a corner
     fits.push_back(fit);
   }
   return fits;
@@ -569,6 +592,11 @@ LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrat
   if (!calibrator.HasEnough())
     return WithoutEstimate(CalibrationStatus::kTooFewObservations,
                            "fewer observations than unknowns: add images, or say what is known beforehand");
+  if (const std::string tags = calibrator.TagsBehindCamera(); !tags.empty())
+    return WithoutEstimate(
+        CalibrationStatus::kNotConverged,
+        fmt::format("tags.yaml puts the tags {} behind the camera: mend their place, or leave them out",
+                    tags));
   const bool settled = calibrator.Run();
   if (!calibrator.CanEvaluate())
     return WithoutEstimate(

@@ -85,7 +85,7 @@ struct TagGroupFit {
       0;                  // root mean square of its six differences from tags.yaml, in their sigmas there
   int tags = 0;           // seen; on the base once for all images
   int tags_left_out = 0;  // of these, without weight
-  double rms_px = 0;      // of a coordinate of a corner, weighted
+  double rms_px = 0;      // of the corners' distances, weighted
 };
 
 struct LegCalibration {

@@ -72,6 +72,7 @@ class SessionCalibrator {
     ReadImages();
     result_.times.read_s = lap.Lap();
     FindTags();
+    DemandSeenTags();
     PlaceCamera();
     RefineFirstPose();
     FindEdges(kSearchAfterScouts_px);
@@ -145,6 +146,18 @@ class SessionCalibrator {
       }
       result_.images[i].tags = detector->Detect(images_[i]);
     });
+  }
+
+  void DemandSeenTags() const {
+    if (!session_.tags) return;
+    for (const TagGroup& group : session_.tags->groups) {
+      const bool is_seen = std::any_of(
+          result_.images.begin(), result_.images.end(),
+          [&](const ImageOutcome& image) { return !Match(group, image.tags).corners_px.empty(); });
+      if (TakesPart(group) && !is_seen)
+        throw std::invalid_argument(
+            fmt::format("the tags {} are to be observations, but no image shows one of them", group.name));
+    }
   }
 
   // The base's tags stand still: their corners from all images count together.

@@ -37,11 +37,9 @@ Eigen::MatrixXd WithoutLast(const Eigen::MatrixXd& information, Eigen::Index cou
                                                              .solve(cross.transpose());
 }
 
-template <typename Residuals>
-const Residuals& Demand(const std::optional<Residuals>& residuals) {
-  if (!residuals)
+void Demand(bool is_evaluated) {
+  if (!is_evaluated)
     throw std::runtime_error("SharedInformation: the model cannot be evaluated at its own solution");
-  return *residuals;
 }
 
 // The unknowns in a row: the shared parameters, the tags' placements and, of one unit at a time, its pose.
@@ -73,7 +71,7 @@ class Information {
     for (const LegObservation& observation : unit.legs) {
       const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
       const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
-      Demand(r);
+      Demand(r.has_value());
       Add({{0, r->d_camera}, {FirstParameterOfLeg(observation.leg), r->d_leg}, {first_pose_, r->d_pose}},
           with_pose);
     }
@@ -86,7 +84,7 @@ class Information {
               const std::optional<Eigen::Index>& pose, Eigen::MatrixXd& information) const {
     const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
                                camera_from_platform, Vector6d::Zero(), tag);
-    Demand(r);
+    Demand(r.has_value());
     std::vector<DerivativeBlock> blocks = {{0, r->d_camera}, {FirstOfGroup(tag.group), r->d_placement}};
     if (pose) blocks.push_back({*pose, r->d_pose});
     Add(blocks, information);

@@ -9,7 +9,9 @@ namespace {
 
 constexpr int kMaxSteps = 12;
 constexpr double kLongestStep_px = 0.5;
-constexpr double kSteady_px = 3e-3;    // the step after it would be a tenth of that
+constexpr double kFarthestFlat_px =
+    1;                               // from the start, for the other models to begin at the flat one's place
+constexpr double kSteady_px = 3e-3;  // the step after it would be a tenth of that
 constexpr double kOutsideSlope = 0.3;  // grey levels per px: prior of the background's slope
 constexpr double kKink = 28.6;  // grey levels per rad: prior of a kink in brightness over surface angle
 // By which the squares must fall for a stretch to count as shaded in its own way.
@@ -317,7 +319,9 @@ BlurEvidence EvidenceOnBlur(const EdgeProfile& profile, const ProfileFit& fit,
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options) {
   const auto flat = FitProfile(profile, ShadingModel::kFlat, start_px, options);
-  const double start = flat ? flat->place_px : start_px;
+  // A shaded leg can draw the flat model's step far inside, where it grows bright.
+  const bool is_near = flat && std::abs(flat->place_px - start_px) < kFarthestFlat_px;
+  const double start = is_near ? flat->place_px : start_px;
   const auto angular = FitProfile(profile, ShadingModel::kAngular, start, options);
   const double price = kStrictness * std::log(static_cast<double>(std::max<size_t>(profile.size(), 2)));
   const auto simpler = [&](double misfit) {
@@ -328,7 +332,10 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
   };
   const auto [plain, of_plain] = simpler(1);
   // Where noise alone leaves as much, give or take its own scatter, kinks have nothing to explain.
-  const auto bins = static_cast<double>(profile.size());
+  const auto bins =
+      static_cast<double>(std::count_if(profile.begin(), profile.end(), [&](const ProfileBin& bin) {
+        return bin.inside_px - start >= -options.outside_px && bin.inside_px - start <= options.inside_px;
+      }));
   if (plain && plain->squares < bins + std::sqrt(2 * bins)) return plain;
   const auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
   if (!kinked) return plain;

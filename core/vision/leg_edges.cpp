@@ -229,9 +229,11 @@ class Measurement {
 
   double CommonGreyNoise() const {
     std::vector<double> noises;
-    for (const Work& work : works_)
-      if (!work.Dropped()) noises.push_back(GreyNoise(work.band));
-    if (noises.empty()) return 0;
+    for (const Work& work : works_) {
+      const double noise = work.Dropped() ? 0 : GreyNoise(work.band);
+      if (noise > 0) noises.push_back(noise);
+    }
+    if (noises.empty()) return kLeastGreyNoise;
     return std::max(MedianOf(std::move(noises)), kLeastGreyNoise);
   }
 

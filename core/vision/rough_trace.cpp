@@ -19,35 +19,43 @@ struct RoughPlace {
   double share = 0;
   Eigen::Vector2d centre_px, normal_px;  // of the predicted curve there
   double outward_px = 0;
-  double step = 0;    // grey levels over two bins, signed: positive where the leg is brighter
+  double step = 0;    // grey levels, signed: positive where the leg is brighter
   double weight = 0;  // its square root
 };
 
-// Grey levels by which the two bins from i on are brighter than the two before, nothing beside an empty bin.
-std::optional<double> StepBefore(const BandBins& bins, size_t i) {
-  const auto mean = [&](size_t at) { return bins[at].MeanBrightness(); };
-  for (size_t at = i - 2; at < i + 2; ++at)
-    if (bins[at].count == 0) return std::nullopt;
-  return (mean(i) + mean(i + 1) - mean(i - 1) - mean(i - 2)) / 2;
+// A step between the pixels of the two bins before bin i and those of the two from it on. A pair of bins is a
+// pixel wide: it holds pixels also where an edge runs along the image's rows or columns and every second bin
+// is empty.
+struct Step {
+  double inside_px = 0;  // between the pixels' mean distances
+  double grey = 0;       // by which the inner ones are brighter
+};
+std::optional<Step> StepAt(const BandBins& bins, size_t i) {
+  const auto before = bins[i - 2].sums + bins[i - 1].sums, after = bins[i].sums + bins[i + 1].sums;
+  const float count_before = bins[i - 2].count + bins[i - 1].count,
+              count_after = bins[i].count + bins[i + 1].count;
+  if (count_before == 0 || count_after == 0) return std::nullopt;
+  return Step{(before[0] / count_before + after[0] / count_after) / 2,
+              after[1] / count_after - before[1] / count_before};
 }
 
-// The strongest step, between bins by the parabola through its neighbours.
-std::optional<RoughPlace> StrongestStep(const BandBins& bins, const BinGrid& grid, const BandCell& middle) {
-  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0, 0};
-  std::vector<double> steps(bins.size(), 0);
-  size_t at = 0;
-  for (size_t i = 2; i + 2 < bins.size(); ++i) {
-    steps[i] = StepBefore(bins, i).value_or(0);
-    if (std::abs(steps[i]) > std::abs(steps[at])) at = i;
+// The strongest step that is no weaker than those a pixel to either side (shading grows steeper towards the
+// window's end without an edge there), moved by the parabola through the three.
+std::optional<RoughPlace> StrongestStep(const BandBins& bins, const BandCell& middle) {
+  std::vector<std::optional<Step>> steps(bins.size());
+  for (size_t i = 2; i + 2 < bins.size(); ++i) steps[i] = StepAt(bins, i);
+  std::optional<RoughPlace> best;
+  for (size_t i = 4; i + 4 < bins.size(); ++i) {
+    if (!steps[i] || !steps[i - 2] || !steps[i + 2]) continue;
+    const double before = std::abs(steps[i - 2]->grey), peak = std::abs(steps[i]->grey),
+                 after = std::abs(steps[i + 2]->grey);
+    if (peak < std::max(before, after) || (best && peak <= std::abs(best->step))) continue;
+    const double curvature = 2 * peak - before - after;
+    const double moved_px = curvature > 0 ? (after - before) / (2 * curvature) : 0;
+    best = RoughPlace{middle.share,   middle.centre_px, middle.normal_px, -(steps[i]->inside_px + moved_px),
+                      steps[i]->grey, std::sqrt(peak)};
   }
-  if (at == 0) return std::nullopt;
-  best.step = steps[at];
-  best.weight = std::sqrt(std::abs(best.step));
-  const double before = std::abs(steps[at - 1]), after = std::abs(steps[at + 1]), peak = std::abs(best.step);
-  const double curvature = 2 * peak - before - after;
-  const double between = curvature > 0 ? std::clamp((after - before) / (2 * curvature), -0.5, 0.5) : 0;
-  best.outward_px = -(grid.Middle(at) + (between - 0.5) * grid.width_px);
-  return best;
+  return best && best->step != 0 ? best : std::nullopt;
 }
 
 // outward_px = at_a + slope * share + bend * share * (share - 1): the prediction's error along the leg.
@@ -118,8 +126,7 @@ std::optional<RoughTrace> TraceRoughly(const GrayImage& image, const PredictedEd
   std::vector<RoughPlace> places;
   for (const auto& [first, last] : Stretches(band, kStretch_px, options.step_px)) {
     const BandBins bins = BinBand(band, first, last, grid);
-    if (const auto place = StrongestStep(bins, grid, band.cells[(first + last) / 2]))
-      places.push_back(*place);
+    if (const auto place = StrongestStep(bins, band.cells[(first + last) / 2])) places.push_back(*place);
   }
   const RoughCurve curve = Consensus(places, options.bend_px);
   if (curve.count < kFewestPlaces || curve.count < kLeastShare * static_cast<double>(places.size()))

@@ -26,10 +26,13 @@ TEST(TagSigma, IsThatOfTheCornersWhetherOrNotSomeTagsAreMisread) {
   for (size_t i = 0; i < tags.size(); ++i) EXPECT_EQ(tags[i].weight, i < 50 ? 0 : 1) << i;
 }
 
-TEST(TagSigma, OfASingleTagIsHardlyMoreThanTheUsualOne) {
+// Eight rows at 0.1 px beside the tag's own eight, of which its place takes six.
+TEST(TagSigma, OfASingleTagIsDrawnTowardsTheUsualOne) {
   std::vector<TagErrors> tags(1);
   tags[0].error_px.setZero();
-  EXPECT_GT(TagSigma(tags, 1), 0.08);
+  EXPECT_NEAR(TagSigma(tags, 1), 0.1 * std::sqrt(8.0 / 10), 1e-12);
+  tags[0].error_px.setConstant(0.2);
+  EXPECT_NEAR(TagSigma(tags, 1), std::sqrt((8 * 0.01 + 8 * 0.04) / 10), 1e-12);
 }
 
 TEST(MedianCorners, AreNotMovedByAMisreadImage) {

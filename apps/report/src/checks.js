@@ -1,4 +1,4 @@
-// Comparisons with things that took no part in the fit, such as tags.
+// Comparisons with things beside the edges: images held out, tags, joint readings.
 import { append, muted, table } from "./dom.js";
 import { fixed, sentence, significant } from "./format.js";
 
@@ -16,7 +16,7 @@ export function renderChecks(section, data) {
   append(
     section,
     table(
-      "Comparisons with what took no part in the fit",
+      "Comparisons; where nothing else is said, with what took no part in the fit",
       [
         { label: "Check", text: true, cell: ({ name }) => sentence(name).replace(/\.$/, "") },
         { label: "What it says", text: true, cell: ({ text }) => sentence(text) },

@@ -101,7 +101,16 @@ TEST(EdgeBand, StaysInTheImage) {
   edge.start_px = {-20, -10};
   const GrayImage image = Paint(edge, [](double, double) { return 100; });
   const EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  EXPECT_FALSE(band.pixels.empty());
+  size_t expected = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const Eigen::Vector2d from_start = Eigen::Vector2d(x, y) - edge.start_px;
+      const double along = edge.along_px.dot(from_start), inside = -edge.normal_px.dot(from_start);
+      expected +=
+          along >= 0 && along <= edge.length_px && inside <= kInside_px && inside >= -kOutside_px ? 1 : 0;
+    }
+  EXPECT_GT(expected, 100);
+  EXPECT_EQ(band.pixels.size(), expected);
 }
 
 constexpr BinGrid kGrid{kOutside_px, kInside_px, 0.125};
