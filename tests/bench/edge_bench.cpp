@@ -73,11 +73,10 @@ Prediction Predict(const Edge& edge, std::mt19937_64& generator) {
 // What MeasureLegEdges does with a traced edge, once, in a wider window: offset of the found edge outward
 // from the prediction's middle.
 double OffsetByBand(const GrayImage& image, const Prediction& prediction) {
-  const BinGrid grid{kOutside_px + 1, kInside_px + 1, kBin_px};
-  EdgeBand band = CollectBand(image, prediction.points, grid.outside_px, grid.inside_px);
-  MeasureLevels(band);
-  const EdgeProfile profile =
-      FlatProfile(BinBand(band, 0, band.cells.size(), grid), SoftStep(grid), kFineBins_px);
+  EdgeBand band = CollectBand(image, prediction.points, kOutside_px + 1, kInside_px + 1);
+  Flatten(band, 0, LevelShape());
+  const EdgeProfile profile = CoarserFarFromTheEdge(
+      BinProfile(band, 0, band.cells.size(), kOutside_px + 1, kInside_px + 1, kBin_px), kFineBins_px);
   ProfileFitOptions options;
   options.blur_px =
       std::sqrt(kBlur_px * kBlur_px - 1.0 / 12);  // the image's whole blur holds the pixels' own
