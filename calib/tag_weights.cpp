@@ -16,6 +16,7 @@ constexpr double kLeastSigma_px = 0.005;
 
 double MedianTagSigma(const std::vector<TagErrors>& tags) {
   std::vector<double> sizes;
+  sizes.reserve(kTagRows * tags.size());
   for (const TagErrors& tag : tags)
     for (const double error_px : tag.error_px) sizes.push_back(std::abs(error_px));
   if (sizes.empty()) return kUsualSigma_px;
@@ -42,6 +43,7 @@ std::array<Eigen::Vector2d, 4> MedianCorners(const std::vector<std::array<Eigen:
   for (size_t corner = 0; corner < 4; ++corner)
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
       std::vector<double> values;
+      values.reserve(corners_px.size());
       for (const auto& seen : corners_px) values.push_back(seen[corner][axis]);
       medians[corner][axis] = MedianOf(std::move(values));
     }

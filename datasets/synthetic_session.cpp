@@ -303,7 +303,8 @@ GoughStewart DesktopHexapod() {
   GoughStewart robot;
   robot.name = "desktop hexapod";
   for (int i = 0; i < kLegCount; ++i) {
-    const double centre = (i / 2) * 2 * std::numbers::pi / 3;
+    const int pair = i / 2;
+    const double centre = pair * 2 * std::numbers::pi / 3;
     const double side = i % 2 == 0 ? 1 : -1;
     const double base_angle = centre + side * kAlpha;
     const double platform_angle = centre + side * (std::numbers::pi / 3 - kBeta);
