@@ -12,17 +12,6 @@
 namespace legible {
 namespace {
 
-SyntheticSession SmallSession() {
-  SyntheticOptions options;
-  options.image_count = 3;
-  options.samples_per_edge = 5;
-  options.camera = DesktopCamera(true);
-  SyntheticSession session = GenerateSession(options);
-  for (ImageObservation& image : session.observations)
-    for (EdgeObservation& edge : image.edges) edge.common_sigma_px = 0.05;
-  return session;
-}
-
 TEST(PlatformGauge, VanishesForTheRigidFitToTheDrawing) {
   std::mt19937_64 generator = TestGenerator();
   const GoughStewart robot = DesktopHexapod();

@@ -11,17 +11,6 @@
 namespace legible {
 namespace {
 
-SyntheticSession SmallSession() {
-  SyntheticOptions options;
-  options.image_count = 3;
-  options.samples_per_edge = 5;
-  options.camera = DesktopCamera(true);
-  SyntheticSession session = GenerateSession(options);
-  for (ImageObservation& image : session.observations)
-    for (EdgeObservation& edge : image.edges) edge.common_sigma_px = 0.05;
-  return session;
-}
-
 // All residuals of a problem whose shared parameters, poses and tag placements are moved by `displacement`,
 // in that order.
 Eigen::VectorXd ResidualsAt(const EstimationProblem& problem, const Eigen::VectorXd& displacement) {

@@ -34,6 +34,17 @@ LegObservation ObserveLeg(const ImageObservation& image, int leg, const TruthPro
 
 }  // namespace
 
+SyntheticSession SmallSession() {
+  SyntheticOptions options;
+  options.image_count = 3;
+  options.samples_per_edge = 5;
+  options.camera = DesktopCamera(true);
+  SyntheticSession session = GenerateSession(options);
+  for (ImageObservation& image : session.observations)
+    for (EdgeObservation& edge : image.edges) edge.common_sigma_px = 0.05;
+  return session;
+}
+
 Rigid3 GaugeFromPlatform(const SyntheticSession& session) {
   std::vector<Eigen::Vector3d> truth, drawn;
   for (size_t i = 0; i < kLegCount; ++i) {

@@ -8,6 +8,9 @@
 
 namespace legible {
 
+// Three images through a lens, five samples an edge that share an error: small enough for dense derivatives.
+SyntheticSession SmallSession();
+
 // platform' from platform, where platform' is the rigid fit of the true B to the drawn ones.
 Rigid3 GaugeFromPlatform(const SyntheticSession& session);
 
