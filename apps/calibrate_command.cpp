@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include "apps/progress.h"
 #include "apps/report_images.h"
 #include "apps/report_page.h"
+#include "core/stopwatch.h"
 #include "core/vision/gray_image.h"
 #include "datasets/atomic_file.h"
 #include "datasets/input_error.h"
@@ -23,16 +23,6 @@
 
 namespace legible {
 namespace {
-
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // What no estimation is needed for to see that it cannot start.
 void DemandPlaceOfCamera(const Session& session) {

@@ -125,30 +125,30 @@ std::string AssumptionText(const CalibrateSettings& settings, const PriorKnowled
 }
 
 std::set<std::string> TagGroupsOf(const CalibrateSettings& settings, const Session& session) {
-  std::set<std::string> groups;
+  if (settings.tags.empty()) return {};
+  if (!session.tags || session.tags->groups.empty()) throw std::invalid_argument("the session has no tags");
   std::vector<std::string> names;
-  const std::vector<TagGroup> there = session.tags ? session.tags->groups : std::vector<TagGroup>();
-  const bool all = std::find(settings.tags.begin(), settings.tags.end(), "all") != settings.tags.end();
-  for (const TagGroup& group : there) {
+  std::set<std::string> usable, chosen;
+  for (const TagGroup& group : session.tags->groups) {
     names.push_back(group.name);
-    const bool named =
-        std::find(settings.tags.begin(), settings.tags.end(), group.name) != settings.tags.end();
-    const bool of_no_use = settings.free_legs && group.carrier == TagCarrier::kPlatform;
-    if (named && of_no_use)
-      throw std::invalid_argument(fmt::format(
-          "\"{}\" is on the platform, which with --free-legs is not taken to be rigid", group.name));
-    if (named || (all && !of_no_use)) groups.insert(group.name);
+    if (!settings.free_legs || group.carrier == TagCarrier::kBase) usable.insert(group.name);
   }
-  for (const std::string& name : settings.tags)
-    if (name != "all" && !groups.contains(name))
-      throw std::invalid_argument(names.empty() ? "the session has no tags"
-                                                : fmt::format("\"{}\" is none of the session's groups {}",
-                                                              name, fmt::join(names, ", ")));
-  if (all && groups.empty())
-    throw std::invalid_argument(there.empty()
-                                    ? "the session has no tags"
-                                    : "with --free-legs only tags on the base count, and it has none there");
-  return groups;
+  for (const std::string& name : settings.tags) {
+    if (name == "all") {
+      chosen.insert(usable.begin(), usable.end());
+    } else if (usable.contains(name)) {
+      chosen.insert(name);
+    } else if (std::find(names.begin(), names.end(), name) != names.end()) {
+      throw std::invalid_argument(
+          fmt::format("\"{}\" is on the platform, which with --free-legs is not taken to be rigid", name));
+    } else {
+      throw std::invalid_argument(
+          fmt::format("\"{}\" is none of the session's groups {}", name, fmt::join(names, ", ")));
+    }
+  }
+  if (chosen.empty())
+    throw std::invalid_argument("with --free-legs only tags on the base count, and it has none there");
+  return chosen;
 }
 
 SessionCalibrationOptions ToOptions(const CalibrateSettings& settings, const Session& session) {

@@ -42,9 +42,7 @@ JointsInBase TakeToBase(const BaseFrame& frame, const LegPoints& base_joints_in_
   for (int i = 0; i < kLegCount; ++i) {
     const Eigen::Vector3d& joint = base_joints_in_camera_m[static_cast<size_t>(i)];
     result.base_joints_m[static_cast<size_t>(i)] = base_from_camera * joint;
-    Eigen::Matrix<double, 3, 18> moved =
-        Skew(joint - frame.camera_from_base.translation) * frame.d_joints.bottomRows<3>() -
-        frame.d_joints.topRows<3>();
+    Eigen::Matrix<double, 3, 18> moved = -frame.MotionOf(joint);
     moved.middleCols<3>(3 * i) += Eigen::Matrix3d::Identity();
     result.d_joints.middleRows<3>(3 * i) = rotation * moved;
   }

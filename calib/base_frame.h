@@ -18,6 +18,12 @@ using LegPoints = std::array<Eigen::Vector3d, kLegCount>;
 struct BaseFrame {
   Rigid3 camera_from_base;
   Eigen::Matrix<double, 6, 18> d_joints;
+
+  // How a point that stands still in the base moves with the base joints.
+  Eigen::Matrix<double, 3, 18> MotionOf(const Eigen::Vector3d& x_in_camera) const {
+    return d_joints.topRows<3>() -
+           Skew(x_in_camera - camera_from_base.translation) * d_joints.bottomRows<3>();
+  }
 };
 
 // Throws std::invalid_argument where either six points lie on one line.

@@ -93,11 +93,19 @@ DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const Shar
     const size_t leg = static_cast<size_t>(i);
     const Eigen::Vector3d drawn = base.camera_from_base * problem.drawn_base_joints[leg];
     result.residual_m.segment<3>(3 * i) = joints[leg] - drawn;
-    result.d_base_joints.middleRows<3>(3 * i) +=
-        Skew(drawn - base.camera_from_base.translation) * base.d_joints.bottomRows<3>() -
-        base.d_joints.topRows<3>();
+    result.d_base_joints.middleRows<3>(3 * i) -= base.MotionOf(drawn);
   }
   return result;
+}
+
+std::vector<PlacementResiduals> EvaluatePlacements(const EstimationProblem& problem) {
+  std::vector<PlacementResiduals> residuals;
+  if (problem.tag_placements.empty()) return residuals;
+  const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem.shared), problem.drawn_base_joints);
+  residuals.reserve(problem.tag_placements.size());
+  for (const TagPlacement& placement : problem.tag_placements)
+    residuals.push_back(EvaluatePlacement(placement, Vector6d::Zero(), base));
+  return residuals;
 }
 
 }  // namespace legible

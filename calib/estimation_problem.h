@@ -75,6 +75,9 @@ DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const Shar
 
 LegPoints BaseJointsInCamera(const SharedParameters& shared);
 
+// Of each of the problem's tag placements, where the problem stands.
+std::vector<PlacementResiduals> EvaluatePlacements(const EstimationProblem& problem);
+
 // Minimises the sum of squares from where the problem stands (Levenberg-Marquardt, the image poses eliminated
 // by Schur's complement) and leaves the result in it.
 struct SolveOptions {

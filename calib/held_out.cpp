@@ -152,8 +152,9 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
     Squares px, metres;
     for (size_t i = 0; i < sightings.size(); ++i)
       for (size_t k = 0; k < sightings[i].corners_px.size(); ++k) {
-        const Eigen::Vector3d in_carrier = carrier_from_group * sightings[i].corners_in_group_m[k];
-        const Eigen::Vector3d x = camera_from_carrier[i] * in_carrier;
+        const MovedPoint corner =
+            Move(carrier_from_group, Vector6d::Zero(), sightings[i].corners_in_group_m[k]);
+        const Eigen::Vector3d x = camera_from_carrier[i] * corner.x_in_b;
         if (x.z() <= 0) return std::nullopt;
         const Eigen::Vector2d error = Project(camera, x) - sightings[i].corners_px[k];
         px.Add(error);
@@ -162,10 +163,8 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
         Eigen::Matrix<double, 2, 3> d_x;
         d_x << camera.fx_px / x.z(), 0, -camera.fx_px * x.x() / (x.z() * x.z()), 0, camera.fy_px / x.z(),
             -camera.fy_px * x.y() / (x.z() * x.z());
-        Eigen::Matrix<double, 3, 6> d_pose;
-        d_pose << Eigen::Matrix3d::Identity(), -Skew(in_carrier - carrier_from_group.translation);
         const Eigen::Matrix<double, 2, 6> jacobian =
-            d_x * camera_from_carrier[i].rotation.toRotationMatrix() * d_pose;
+            d_x * camera_from_carrier[i].rotation.toRotationMatrix() * corner.d_displacement;
         information += jacobian.transpose() * jacobian;
         moment -= jacobian.transpose() * error;
       }

@@ -3,159 +3,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
-#include "calib/tag_weights.h"
+#include "calib/problem_setup.h"
+#include "calib/tag_rounds.h"
+#include "core/stopwatch.h"
 
 namespace legible {
 namespace {
 
-constexpr int kMaxRounds = 12;         // of solving and re-weighting; the last keeps its weights
-constexpr int kRoundsByMedian = 2;     // the scale comes from the median until the worst outliers are gone
-constexpr double kSteadyScale = 1e-3;  // relative change of the noise at which the rounds end
-constexpr double kHeldJointSigma_m = 1e-6;  // by which base joints that are held may leave the drawing
-constexpr double kSteadyWeight = 1e-4;      // mean absolute change of the weights at which they end
-constexpr double kAbsurdRms_px = 20;        // a fit this bad is a wrong model, not noise
-
-LegPoints DrawnJoints(const GoughStewart& robot, Eigen::Vector3d Leg::*joint) {
-  LegPoints joints;
-  for (size_t i = 0; i < kLegCount; ++i) joints[i] = robot.legs[i].*joint;
-  return joints;
-}
-
-CalibrationStart StartOf(const LegCalibrationInput& input) {
-  if (input.start) return *input.start;
-  CalibrationStart start{input.camera, input.drawing, input.camera_from_base, {}};
-  for (const ImageObservation& image : input.images) {
-    Rigid3 base_from_platform = input.drawing.home;
-    if (image.joint_readings_m) {
-      const auto fk = ForwardKinematics(input.drawing, *image.joint_readings_m, input.drawing.home);
-      if (fk.status == ForwardKinematicsStatus::kConverged) base_from_platform = fk.base_from_platform;
-    }
-    start.camera_from_platform.push_back(input.camera_from_base * base_from_platform);
-  }
-  return start;
-}
-
-SharedParameters ParametersOf(const Camera& camera, const GoughStewart& robot,
-                              const Rigid3& camera_from_base) {
-  SharedParameters shared;
-  shared.camera = ParametersOf(camera);
-  for (size_t i = 0; i < kLegCount; ++i) {
-    const Leg& leg = robot.legs[i];
-    shared.legs[i] << camera_from_base * leg.base_joint_m, leg.platform_joint_m, leg.radius_m,
-        leg.joint_offset_m, Eigen::Vector4d::Zero();
-  }
-  return shared;
-}
-
-std::bitset<kSharedParameterCount> FreeParameters(const LegCalibrationInput& input,
-                                                  const LegCalibrationOptions& options) {
-  std::bitset<kSharedParameterCount> free;
-  const HeldParameters& hold = options.hold;
-  for (size_t i = 0; i < 4; ++i) free[i] = i < 2 ? !hold.focal_length : !hold.principal_point;
-  for (size_t i = 0; i < static_cast<size_t>(input.camera.lens); ++i) free[4 + i] = !hold.distortion;
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    const auto set = [&](int entry, int count, bool value) {
-      for (int i = 0; i < count; ++i) free[static_cast<size_t>(FirstParameterOfLeg(leg) + entry + i)] = value;
-    };
-    set(leg_parameter::kBaseJoint, 3, !(hold.base_joints && hold.camera_pose));
-    set(leg_parameter::kPlatformJoint, 3, !hold.platform_joints && options.rigid_platform);
-    set(leg_parameter::kRadius, 1, !hold.radii);
-    set(leg_parameter::kJointOffset, 1,
-        !hold.joint_offsets && options.rigid_platform && options.use_joint_readings);
-  }
-  return free;
-}
-
-// How far shading may move each leg's edge in all images alike.
-double LastingShading(const LegCalibrationInput& input, const LegCalibrationOptions& options, int leg,
-                      int edge) {
-  double squares = 0, count = 0;
-  for (const ImageObservation& image : input.images)
-    for (const EdgeObservation& observation : image.edges) {
-      if (observation.leg != leg || observation.edge != edge) continue;
-      squares += observation.common_sigma_px * observation.common_sigma_px;
-      count += 1;
-    }
-  return count > 0 ? options.lasting_shading * std::sqrt(squares / count) : 0;
-}
-
-// Adds what is known beforehand to the problem, about the drawing's and the guessed camera's values.
-void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& options,
-               EstimationProblem& problem) {
-  const SharedParameters nominal = ParametersOf(input.camera, input.drawing, input.camera_from_base);
-  const auto add = [&](int parameter, const std::optional<double>& sigma) {
-    if (sigma && problem.free[static_cast<size_t>(parameter)])
-      problem.priors.push_back({parameter, Parameter(nominal, parameter), *sigma});
-  };
-  const PriorKnowledge& known = input.known;
-  for (int i = 0; i < 2; ++i) add(i, known.focal_length_px);
-  for (int i = 2; i < 4; ++i) add(i, known.principal_point_px);
-  for (int i = 4; i < kCameraParameterCount; ++i) add(i, known.distortion);
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    const int at = FirstParameterOfLeg(leg);
-    for (int i = 0; i < 3; ++i) add(at + leg_parameter::kPlatformJoint + i, known.platform_joint_m);
-    add(at + leg_parameter::kRadius, known.radius_m);
-    add(at + leg_parameter::kJointOffset, known.joint_offset_m);
-    for (int i = 0; i < 4; ++i) {
-      const double sigma_px = LastingShading(input, options, leg, i / 2);
-      const int parameter = at + leg_parameter::kShading + i;
-      problem.free[static_cast<size_t>(parameter)] = sigma_px > 0;
-      if (sigma_px > 0) add(parameter, sigma_px);
-    }
-  }
-  const double drawn_sigma_m = options.hold.base_joints ? kHeldJointSigma_m : known.base_joint_m.value_or(0);
-  if (problem.free[static_cast<size_t>(FirstParameterOfLeg(0))]) problem.base_joint_sigma_m = drawn_sigma_m;
-}
-
-TagPlacement PlacementOf(const TagGroup& group, const Rigid3& camera_from_base) {
-  const bool on_base = group.carrier == TagCarrier::kBase;
-  return {group.carrier, on_base ? camera_from_base * group.carrier_from_group : group.carrier_from_group,
-          group.carrier_from_group, group.translation_sigma_m, group.rotation_sigma_rad};
-}
-
-// Each tag of a group on the base once, where the images have it in the median.
-std::vector<TagObservation> BaseTags(const ObservedTagGroup& observed, size_t group) {
-  std::vector<TagObservation> tags;
-  for (const Tag& tag : observed.group.tags) {
-    std::vector<std::array<Eigen::Vector2d, 4>> seen;
-    for (const auto& image : observed.detections)
-      for (const TagDetection& detection : image)
-        if (detection.id == tag.id) seen.push_back(detection.corners_px);
-    if (!seen.empty()) tags.push_back({group, tag.corners_m, MedianCorners(seen), 1});
-  }
-  return tags;
-}
-
-std::vector<TagObservation> PlatformTags(const ObservedTagGroup& observed, size_t group, size_t image) {
-  std::vector<TagObservation> tags;
-  for (const Tag& tag : observed.group.tags)
-    for (const TagDetection& detection : observed.detections[image])
-      if (detection.id == tag.id) tags.push_back({group, tag.corners_m, detection.corners_px, 1});
-  return tags;
-}
+constexpr int kMaxRounds = 12;          // of solving and re-weighting; the last keeps its weights
+constexpr int kRoundsByMedian = 2;      // the scale comes from the median until the worst outliers are gone
+constexpr double kSteadyScale = 1e-3;   // relative change of the noise at which the rounds end
+constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
+constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
 
 // Works through rounds of least squares and re-weighting on one problem.
 class Calibrator {
  public:
   Calibrator(const LegCalibrationInput& input, const LegCalibrationOptions& options)
-      : input_(input), options_(options), start_(StartOf(input)) {
-    problem_.shared = ParametersOf(start_.camera, start_.robot, start_.camera_from_base);
-    problem_.free = FreeParameters(input, options);
-    AddPriors(input, options, problem_);
-    HoldAtDrawing();
-    problem_.drawn_base_joints = DrawnJoints(input.drawing, &Leg::base_joint_m);
-    problem_.drawn_platform_joints = DrawnJoints(input.drawing, &Leg::platform_joint_m);
-    for (size_t image = 0; image < input.images.size(); ++image) AddImage(image);
-    AddTags();
+      : input_(input),
+        options_(options),
+        start_(StartOf(input)),
+        problem_(ProblemOf(input, options, start_)),
+        tags_(problem_) {
+    AddEdges();
     for (const EdgeResidualSet& edge : edges_) samples_ += static_cast<int>(edge.weight.size());
+    for (const PoseUnit& unit : problem_.units)
+      for (const LegObservation& leg : unit.legs) readings_ += leg.reading_m ? 1 : 0;
   }
 
-  bool HasEnough() const { return samples_ + readings_ + TagRows() + PriorRows() > UnknownCount(); }
+  bool HasEnough() const { return samples_ + readings_ + tags_.rows() + PriorRows() > UnknownCount(); }
   int UnknownCount() const {
     int unknowns =
         static_cast<int>(problem_.free.count()) - (problem_.HasPlatformGauge() ? 6 : 0) + PlacementUnknowns();
@@ -165,48 +44,34 @@ class Calibrator {
 
   // False where the model cannot be evaluated any more.
   bool Run() {
-    if (!EvaluateResiduals()) return false;
+    if (!CanEvaluate()) return false;
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
     UpdateWeights(edges_, noise_);
-    if (!tag_errors_.empty()) tag_sigma_px_ = MedianTagSigma(tag_errors_);
+    tags_.Start();
     for (int round = 0; round < kMaxRounds; ++round) {
       const SolveSummary summary = SolveRound();
-      if (!EvaluateResiduals()) return false;
+      if (!CanEvaluate()) return false;
       if (round + 1 == kMaxRounds) return summary.converged;
       if (Reweight(round) && summary.converged) return true;
     }
     return false;
   }
 
-  bool CanEvaluate() { return EvaluateResiduals(); }
+  bool CanEvaluate() { return EvaluateEdges() && !tags_.Evaluate(); }
   // The first group that starts behind the camera; empty: none.
-  std::string TagsBehindCamera();
+  std::string TagsBehindCamera() {
+    const std::optional<size_t> group = tags_.Evaluate();
+    return group ? input_.tags[*group].group.name : std::string();
+  }
 
   LegCalibration Result() const;
-  std::vector<TagGroupFit> TagFits() const;
+  std::vector<TagGroupFit> TagFits() const { return tags_.Fits(input_.tags); }
 
  private:
-  // What is held keeps the drawing's and the guessed camera's values, wherever the iterations start.
-  void HoldAtDrawing() {
-    const SharedParameters nominal = ParametersOf(input_.camera, input_.drawing, start_.camera_from_base);
-    for (int i = 0; i < kSharedParameterCount; ++i)
-      if (!problem_.free[static_cast<size_t>(i)]) Parameter(problem_.shared, i) = Parameter(nominal, i);
-  }
-  void AddImage(size_t image);
-  void AddEdge(size_t image, size_t edge);
-  void AddTags();
-  // Every tag with the pose of the platform that carries it (on the base: not looked at), in a fixed order.
-  template <typename F>
-  void ForEachTag(F f) {
-    size_t index = 0;
-    for (TagObservation& tag : problem_.base_tags) f(index++, tag, Rigid3());
-    for (PoseUnit& unit : problem_.units)
-      for (TagObservation& tag : unit.tags) f(index++, tag, unit.camera_from_platform);
-  }
+  void AddEdges();
+  void AddEdge(size_t unit, const EdgeObservation& observation);
   SolveSummary SolveRound();
-  bool EvaluateResiduals();
-  bool EvaluateTags();
-  double ReweightTags(int round);  // by how much the weights changed, in all
+  bool EvaluateEdges();
   bool Reweight(int round);
   EdgeNoise NoiseOf(const EdgeResidualSet& edge) const {
     EdgeNoise noise = noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
@@ -223,63 +88,35 @@ class Calibrator {
            PlacementUnknowns();  // of which each has a prior
   }
   int PlacementUnknowns() const { return 6 * static_cast<int>(problem_.tag_placements.size()); }
-  size_t SeenTagGroups() const {
-    std::set<size_t> seen;
-    for (size_t i = 0; i < tag_errors_.size(); ++i)
-      if (tag_errors_[i].weight > 0) seen.insert(tag_groups_[i]);
-    return seen.size();
-  }
-  int TagRows() const { return kTagRows * static_cast<int>(tag_errors_.size()); }
 
   const LegCalibrationInput& input_;
   const LegCalibrationOptions& options_;
   CalibrationStart start_;
   EstimationProblem problem_;
+  TagRounds tags_;
   std::vector<EdgeResidualSet> edges_;  // parallel to sources_
   std::vector<const EdgeObservation*> sources_;
   std::vector<std::pair<size_t, size_t>> placements_;  // unit, leg observation in it
   NoiseByEdge noise_ = UniformNoise({});
-  std::vector<TagErrors> tag_errors_;  // in the order of ForEachTag
-  std::vector<size_t> tag_groups_;     // of the same tags
-  double tag_sigma_px_ = 0;
   int samples_ = 0;
   int readings_ = 0;
   int iterations_ = 0;
 };
 
-void Calibrator::AddImage(size_t image) {
-  const ImageObservation& observation = input_.images[image];
-  if (observation.edges.empty()) return;
-  const Rigid3& camera_from_platform = start_.camera_from_platform[image];
-  PoseUnit whole{static_cast<int>(image), options_.rigid_platform, camera_from_platform, {}, {}};
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    LegObservation of_leg{leg, {}, {}, 1};
-    if (options_.use_joint_readings && options_.rigid_platform && observation.joint_readings_m) {
-      of_leg.reading_m = (*observation.joint_readings_m)[leg];
-      of_leg.reading_sigma_m = input_.known.joint_reading_m.value_or(options_.default_joint_reading_sigma_m);
-      ++readings_;
-    }
-    whole.legs.push_back(of_leg);
-  }
-  if (options_.rigid_platform) {
-    problem_.units.push_back(std::move(whole));
-  } else {
-    for (const LegObservation& of_leg : whole.legs) {
-      const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(of_leg.leg)];
-      const Eigen::Vector3d tip = camera_from_platform * leg.segment<3>(leg_parameter::kPlatformJoint);
-      problem_.units.push_back(
-          {static_cast<int>(image), false, {}, tip - leg.segment<3>(leg_parameter::kBaseJoint), {of_leg}});
-    }
-  }
-  for (size_t edge = 0; edge < observation.edges.size(); ++edge) AddEdge(image, edge);
+void Calibrator::AddEdges() {
+  const size_t units_an_image = options_.rigid_platform ? 1 : kLegCount;
+  for (size_t unit = 0; unit < problem_.units.size(); unit += units_an_image)
+    for (const EdgeObservation& observation :
+         input_.images[static_cast<size_t>(problem_.units[unit].image)].edges)
+      AddEdge(unit, observation);
 }
 
-void Calibrator::AddEdge(size_t image, size_t edge) {
-  const EdgeObservation& observation = input_.images[image].edges[edge];
+// `unit` is the first of the image's.
+void Calibrator::AddEdge(size_t unit, const EdgeObservation& observation) {
   const size_t count = observation.samples.size();
   if (count == 0) return;
   const Eigen::Index rows = static_cast<Eigen::Index>(count);
-  EdgeResidualSet set{static_cast<int>(image),
+  EdgeResidualSet set{problem_.units[unit].image,
                       observation.leg,
                       observation.edge,
                       PlacesAlong(observation),
@@ -293,71 +130,11 @@ void Calibrator::AddEdge(size_t image, size_t edge) {
   edges_.push_back(std::move(set));
   sources_.push_back(&observation);
   const size_t leg = static_cast<size_t>(observation.leg);
-  if (options_.rigid_platform)
-    placements_.emplace_back(problem_.units.size() - 1, leg);
-  else
-    placements_.emplace_back(problem_.units.size() - kLegCount + leg, 0);
-}
-
-std::string Calibrator::TagsBehindCamera() {
-  std::string behind;
-  ForEachTag([&](size_t, const TagObservation& tag, const Rigid3& camera_from_platform) {
-    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
-                               camera_from_platform, Vector6d::Zero(), tag);
-    if (!r && behind.empty()) behind = input_.tags[tag.group].group.name;
-  });
-  return behind;
-}
-
-void Calibrator::AddTags() {
-  for (size_t group = 0; group < input_.tags.size(); ++group) {
-    const ObservedTagGroup& observed = input_.tags[group];
-    problem_.tag_placements.push_back(PlacementOf(observed.group, start_.camera_from_base));
-    const bool on_base = observed.group.carrier == TagCarrier::kBase;
-    if (on_base) {
-      const std::vector<TagObservation> tags = BaseTags(observed, group);
-      problem_.base_tags.insert(problem_.base_tags.end(), tags.begin(), tags.end());
-    }
-    for (PoseUnit& unit : problem_.units) {
-      if (on_base) break;
-      const std::vector<TagObservation> tags = PlatformTags(observed, group, static_cast<size_t>(unit.image));
-      unit.tags.insert(unit.tags.end(), tags.begin(), tags.end());
-    }
-  }
-  ForEachTag([&](size_t, const TagObservation& tag, const Rigid3&) {
-    tag_errors_.emplace_back();
-    tag_groups_.push_back(tag.group);
-  });
-}
-
-bool Calibrator::EvaluateTags() {
-  bool all = true;
-  ForEachTag([&](size_t index, const TagObservation& tag, const Rigid3& camera_from_platform) {
-    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
-                               camera_from_platform, Vector6d::Zero(), tag);
-    all &= r.has_value();
-    if (r) tag_errors_[index].error_px = r->residual * tag.sigma_px;
-  });
-  return all;
-}
-
-double Calibrator::ReweightTags(int round) {
-  if (tag_errors_.empty()) return 0;
-  const std::vector<TagErrors> before = tag_errors_;
-  WeighTags(tag_errors_, tag_sigma_px_);
-  double change = 0;
-  for (size_t i = 0; i < before.size(); ++i)
-    change += kTagRows * std::abs(tag_errors_[i].weight - before[i].weight);
-  tag_sigma_px_ =
-      round < kRoundsByMedian ? MedianTagSigma(tag_errors_) : TagSigma(tag_errors_, SeenTagGroups());
-  return change;
+  placements_.emplace_back(options_.rigid_platform ? std::pair(unit, leg) : std::pair(unit + leg, size_t{0}));
 }
 
 SolveSummary Calibrator::SolveRound() {
-  constexpr double kLeastTagWeight = 1e-8;
-  ForEachTag([&](size_t index, TagObservation& tag, const Rigid3&) {
-    tag.sigma_px = tag_sigma_px_ / std::sqrt(std::max(tag_errors_[index].weight, kLeastTagWeight));
-  });
+  tags_.SetSigmas();
   for (PoseUnit& unit : problem_.units)
     for (LegObservation& leg : unit.legs) leg.edges.clear();
   for (size_t i = 0; i < edges_.size(); ++i)
@@ -373,7 +150,7 @@ SolveSummary Calibrator::SolveRound() {
   return summary;
 }
 
-bool Calibrator::EvaluateResiduals() {
+bool Calibrator::EvaluateEdges() {
   const double at_rest[6] = {};
   for (size_t i = 0; i < edges_.size(); ++i) {
     EdgeResidualSet& edge = edges_[i];
@@ -385,7 +162,7 @@ bool Calibrator::EvaluateResiduals() {
     const Eigen::Vector2d shading = leg.segment<2>(leg_parameter::kShading + 2 * edge.edge);
     edge.residual_px = distances->array() - shading[0] - shading[1] * edge.place.array();
   }
-  return EvaluateTags();
+  return true;
 }
 
 // Updates noise and weights; true once they stand still.
@@ -399,18 +176,18 @@ bool Calibrator::Reweight(int round) {
     // Of the freedom that all residuals have, readings and priors use up what their own squares show; tags,
     // whose sigma comes from their own squares, what placing their groups takes.
     const double fitted = UnknownCount() - readings_ - PriorRows() -
-                          6.0 * static_cast<double>(SeenTagGroups()) + OtherSquares();
+                          6.0 * static_cast<double>(tags_.SeenGroups()) + OtherSquares();
     noise_ = EstimateNoise(edges_, std::max(fitted, 0.0));
   }
   UpdateWeights(edges_, noise_);
-  const double tag_sigma_before_px = tag_sigma_px_;
-  double change = ReweightTags(round);
+  const double tag_sigma_before_px = tags_.sigma_px();
+  double change = tags_.Reweight(round < kRoundsByMedian);
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
   const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
   const EdgeNoise now = MeanNoise(noise_);
   return round > kRoundsByMedian && steady(before.sample, now.sample) && steady(before.shift, now.shift) &&
-         steady(tag_sigma_before_px, tag_sigma_px_) && change <= kSteadyWeight * samples_;
+         steady(tag_sigma_before_px, tags_.sigma_px()) && change <= kSteadyWeight * samples_;
 }
 
 double Calibrator::Rms() const {
@@ -435,11 +212,8 @@ double Calibrator::EdgeSigma() const {
 // Sum of squares, in sigmas, of the residuals of readings and priors.
 double Calibrator::OtherSquares() const {
   double squares = ReadingSquares();
-  if (!problem_.tag_placements.empty()) {
-    const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
-    for (const TagPlacement& placement : problem_.tag_placements)
-      squares += EvaluatePlacement(placement, Vector6d::Zero(), base).residual.squaredNorm();
-  }
+  for (const PlacementResiduals& placement : EvaluatePlacements(problem_))
+    squares += placement.residual.squaredNorm();
   for (const ParameterPrior& prior : problem_.priors)
     squares += std::pow((Parameter(problem_.shared, prior.parameter) - prior.value) / prior.sigma, 2);
   if (problem_.base_joint_sigma_m > 0)
@@ -464,30 +238,6 @@ double Calibrator::ReadingSquares() const {
   return squares;
 }
 
-std::vector<TagGroupFit> Calibrator::TagFits() const {
-  const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
-  std::vector<TagGroupFit> fits;
-  for (size_t group = 0; group < input_.tags.size(); ++group) {
-    const TagPlacement& placement = problem_.tag_placements[group];
-    TagGroupFit fit{input_.tags[group].group.name, placement.parent_from_group};
-    if (placement.carrier == TagCarrier::kBase)
-      fit.carrier_from_group = Inverse(base.camera_from_base) * placement.parent_from_group;
-    fit.placement_sigmas =
-        EvaluatePlacement(placement, Vector6d::Zero(), base).residual.norm() / std::sqrt(6.0);
-    double squares = 0, weights = 0;
-    for (size_t i = 0; i < tag_errors_.size(); ++i) {
-      if (tag_groups_[i] != group) continue;
-      ++fit.tags;
-      if (tag_errors_[i].weight == 0) ++fit.tags_left_out;
-      squares += tag_errors_[i].weight * tag_errors_[i].error_px.squaredNorm();
-      weights += kTagRows * tag_errors_[i].weight;
-    }
-    if (weights > 0) fit.rms_px = std::sqrt(2 * squares / weights);  // two coordinates a corner
-    fits.push_back(fit);
-  }
-  return fits;
-}
-
 LegCalibration Calibrator::Result() const {
   LegCalibration result;
   result.camera = WithParameters(input_.camera, problem_.shared.camera);
@@ -507,7 +257,7 @@ LegCalibration Calibrator::Result() const {
                             input_.drawing.legs[i].joint_range_m};
     result.shading_px[i] = leg.segment<4>(leg_parameter::kShading);
   }
-  result.tag_sigma_px = tag_sigma_px_;
+  result.tag_sigma_px = tags_.sigma_px();
   result.noise = MeanNoise(noise_);
   result.noise_by_edge = noise_;
   result.rms_px = Rms();
@@ -516,39 +266,10 @@ LegCalibration Calibrator::Result() const {
   if (readings_ > 0) result.reading_rms = std::sqrt(ReadingSquares() / readings_);
   result.samples = samples_;
   result.iterations = iterations_;
-  const auto before = std::chrono::steady_clock::now();
+  const Stopwatch of_covariance;
   result.observability = AnalyseObservability(problem_);
-  result.covariance_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  result.covariance_s = of_covariance.Seconds();
   return result;
-}
-
-void CheckTags(const LegCalibrationInput& input, const LegCalibrationOptions& options) {
-  for (const ObservedTagGroup& tags : input.tags) {
-    if (tags.detections.size() != input.images.size())
-      throw std::invalid_argument("CalibrateLegs: a tag group must hold the detections of each image");
-    if (tags.group.carrier == TagCarrier::kPlatform && !options.rigid_platform)
-      throw std::invalid_argument(fmt::format(
-          "CalibrateLegs: the tags {} are on the platform, which is not taken to be rigid", tags.group.name));
-    if (!(tags.group.translation_sigma_m > 0 && tags.group.rotation_sigma_rad > 0))
-      throw std::invalid_argument(
-          fmt::format("CalibrateLegs: the place of the tags {} needs sigmas", tags.group.name));
-  }
-}
-
-void CheckInput(const LegCalibrationInput& input) {
-  if (input.start && input.start->camera_from_platform.size() != input.images.size())
-    throw std::invalid_argument("CalibrateLegs: the start must hold a pose for each image");
-  for (const ImageObservation& image : input.images)
-    for (const EdgeObservation& edge : image.edges) {
-      if (edge.leg < 0 || edge.leg >= kLegCount || edge.edge < 0 || edge.edge > 1)
-        throw std::invalid_argument(fmt::format("CalibrateLegs: image {} names leg {}, edge {}", image.name,
-                                                edge.leg + 1, edge.edge + 1));
-      for (const EdgeSample& sample : edge.samples)
-        if (!(sample.sigma_px > 0) || !std::isfinite(sample.sigma_px))
-          throw std::invalid_argument(
-              fmt::format("CalibrateLegs: image {} has a sample of sigma {} px on leg {}", image.name,
-                          sample.sigma_px, edge.leg + 1));
-    }
 }
 
 LegCalibration WithoutEstimate(CalibrationStatus status, const std::string& message) {
@@ -586,8 +307,7 @@ const char* ToString(CalibrationStatus status) {
 
 LegCalibration CalibrateLegs(const LegCalibrationInput& input, const LegCalibrationOptions& options) {
   options.Check();
-  CheckInput(input);
-  CheckTags(input, options);
+  CheckInput(input, options);
   Calibrator calibrator(input, options);
   if (!calibrator.HasEnough())
     return WithoutEstimate(CalibrationStatus::kTooFewObservations,

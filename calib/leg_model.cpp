@@ -33,14 +33,9 @@ void FillReading(const LegParameters& leg, const LegTip& tip, const LegObservati
 
 LegTip TipOnPlatform(const LegParameters& leg, const Rigid3& camera_from_platform,
                      const Vector6d& displacement) {
-  const Rigid3 pose = Displaced(camera_from_platform, displacement);
-  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
-  const Eigen::Vector3d turned = rotation * leg.segment<3>(leg_parameter::kPlatformJoint);
-  LegTip tip{turned + pose.translation, Eigen::Matrix3d::Zero(), rotation, {}};
-  tip.d_pose.resize(3, 6);
-  // d(Exp(omega) x) = -[Exp(omega) x] Jl(omega) d omega.
-  tip.d_pose << Eigen::Matrix3d::Identity(), -Skew(turned) * LeftJacobian(displacement.tail<3>());
-  return tip;
+  const MovedPoint tip =
+      Move(camera_from_platform, displacement, leg.segment<3>(leg_parameter::kPlatformJoint));
+  return {tip.x_in_b, Eigen::Matrix3d::Zero(), tip.d_x_in_a, tip.d_displacement};
 }
 
 LegTip TipAlongDirection(const LegParameters& leg, const Eigen::Vector3d& axis_in_camera,

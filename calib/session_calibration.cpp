@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
 #include "calib/held_out.h"
+#include "core/stopwatch.h"
 
 namespace legible {
 namespace {
@@ -25,19 +25,6 @@ constexpr double kUnknownLensBend_px = 12;
 constexpr double kSearchAfterScouts_px = 5;
 constexpr double kSearchAtLast_px = 3;
 constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
-
-class Stopwatch {
- public:
-  double Lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // The camera with another lens model: coefficients that the model lacks are 0.
 Camera WithLens(Camera camera, LensModel lens) {
@@ -91,7 +78,7 @@ class SessionCalibrator {
     result_.times.held_out_s = lap.Lap();
     result_.times.covariance_s = result_.calibration.covariance_s;
     result_.times.solve_s -= result_.times.covariance_s;
-    result_.times.total_s = total.Lap();
+    result_.times.total_s = total.Seconds();
     return std::move(result_);
   }
 
@@ -149,14 +136,17 @@ class SessionCalibrator {
   }
 
   void DemandSeenTags() const {
-    if (!session_.tags) return;
-    for (const TagGroup& group : session_.tags->groups) {
-      const bool is_seen = std::any_of(
-          result_.images.begin(), result_.images.end(),
-          [&](const ImageOutcome& image) { return !Match(group, image.tags).corners_px.empty(); });
-      if (TakesPart(group) && !is_seen)
+    const std::vector<TagGroup> groups = session_.tags ? session_.tags->groups : std::vector<TagGroup>();
+    for (const std::string& name : options_.tag_groups) {
+      const auto group =
+          std::find_if(groups.begin(), groups.end(), [&](const TagGroup& one) { return one.name == name; });
+      if (group == groups.end())
+        throw std::invalid_argument(fmt::format("the session has no tag group \"{}\"", name));
+      if (std::none_of(result_.images.begin(), result_.images.end(), [&](const ImageOutcome& image) {
+            return !Match(*group, image.tags).corners_px.empty();
+          }))
         throw std::invalid_argument(
-            fmt::format("the tags {} are to be observations, but no image shows one of them", group.name));
+            fmt::format("the tags {} are to be observations, but no image shows one of them", name));
     }
   }
 
@@ -370,15 +360,6 @@ class SessionCalibrator {
   SessionCalibration result_;
 };
 
-void DemandTagGroups(const Session& session, const std::set<std::string>& names) {
-  for (const std::string& name : names) {
-    const bool is_there =
-        session.tags && std::any_of(session.tags->groups.begin(), session.tags->groups.end(),
-                                    [&](const TagGroup& group) { return group.name == name; });
-    if (!is_there) throw std::invalid_argument(fmt::format("the session has no tag group \"{}\"", name));
-  }
-}
-
 }  // namespace
 
 void SessionCalibrationOptions::Check() const {
@@ -390,7 +371,6 @@ void SessionCalibrationOptions::Check() const {
 
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options) {
   options.Check();
-  DemandTagGroups(session, options.tag_groups);
   return SessionCalibrator(session, options).Run();
 }
 

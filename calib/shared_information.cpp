@@ -91,12 +91,10 @@ class Information {
   }
 
   void AddPlacements() {
-    if (problem_.tag_placements.empty()) return;
-    const BaseFrame base = FitBaseFrame(BaseJointsInCamera(problem_.shared), problem_.drawn_base_joints);
-    for (size_t group = 0; group < problem_.tag_placements.size(); ++group) {
-      const PlacementResiduals r = EvaluatePlacement(problem_.tag_placements[group], Vector6d::Zero(), base);
-      std::vector<DerivativeBlock> blocks = {{FirstOfGroup(group), r.d_placement}};
-      AddByBaseJoints(r.d_base_joints, blocks);
+    const std::vector<PlacementResiduals> residuals = EvaluatePlacements(problem_);
+    for (size_t group = 0; group < residuals.size(); ++group) {
+      std::vector<DerivativeBlock> blocks = {{FirstOfGroup(group), residuals[group].d_placement}};
+      AddByBaseJoints(residuals[group].d_base_joints, blocks);
       Add(blocks, sum_);
     }
   }

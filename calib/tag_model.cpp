@@ -5,20 +5,6 @@
 namespace legible {
 namespace {
 
-// A point with its derivatives by the displacement of the transform that took it there.
-struct MovedPoint {
-  Eigen::Vector3d x;
-  Eigen::Matrix<double, 3, 6> d_displacement;
-};
-
-MovedPoint Move(const Rigid3& b_from_a, const Vector6d& displacement, const Eigen::Vector3d& x_in_a) {
-  const Rigid3 moved = Displaced(b_from_a, displacement);
-  const Eigen::Vector3d turned = moved.rotation * x_in_a;
-  MovedPoint result{turned + moved.translation, {}};
-  result.d_displacement << Eigen::Matrix3d::Identity(), -Skew(turned) * LeftJacobian(displacement.tail<3>());
-  return result;
-}
-
 struct ProjectedPoint {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> d_x;
@@ -46,23 +32,24 @@ std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const Ta
                                         const Rigid3& camera_from_platform, const Vector6d& pose_displacement,
                                         const TagObservation& observation) {
   TagResiduals result;
-  result.d_pose.setZero();
   for (size_t k = 0; k < observation.corners_px.size(); ++k) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
-    MovedPoint corner =
+    const MovedPoint in_parent =
         Move(placement.parent_from_group, placement_displacement, observation.corners_in_group_m[k]);
-    Eigen::Matrix<double, 3, 6> d_pose = Eigen::Matrix<double, 3, 6>::Zero();
+    Eigen::Vector3d corner_in_camera = in_parent.x_in_b;
+    Eigen::Matrix<double, 3, 6> d_placement = in_parent.d_displacement, d_pose;
+    d_pose.setZero();
     if (placement.carrier == TagCarrier::kPlatform) {
-      const MovedPoint on_platform = Move(camera_from_platform, pose_displacement, corner.x);
-      const Eigen::Quaterniond turn = Displaced(camera_from_platform, pose_displacement).rotation;
-      corner = {on_platform.x, turn.toRotationMatrix() * corner.d_displacement};
-      d_pose = on_platform.d_displacement;
+      const MovedPoint in_camera = Move(camera_from_platform, pose_displacement, in_parent.x_in_b);
+      corner_in_camera = in_camera.x_in_b;
+      d_placement = in_camera.d_x_in_a * in_parent.d_displacement;
+      d_pose = in_camera.d_displacement;
     }
-    if (!(corner.x.z() > 0)) return std::nullopt;
-    const ProjectedPoint projected = ProjectWithJacobians(camera, corner.x);
+    if (!(corner_in_camera.z() > 0)) return std::nullopt;
+    const ProjectedPoint projected = ProjectWithJacobians(camera, corner_in_camera);
     result.residual.segment<2>(row) = projected.pixel - observation.corners_px[k];
     result.d_camera.middleRows<2>(row) = projected.d_camera;
-    result.d_placement.middleRows<2>(row) = projected.d_x * corner.d_displacement;
+    result.d_placement.middleRows<2>(row) = projected.d_x * d_placement;
     result.d_pose.middleRows<2>(row) = projected.d_x * d_pose;
   }
   result.residual /= observation.sigma_px;
@@ -86,8 +73,7 @@ PlacementResiduals EvaluatePlacement(const TagPlacement& placement, const Vector
   result.d_placement.bottomRightCorner<3, 3>() =
       LeftJacobian(turn).inverse() * LeftJacobian(placement_displacement.tail<3>());
   if (on_base) {
-    const Eigen::Vector3d arm = drawn.translation - base.camera_from_base.translation;
-    result.d_base_joints << -base.d_joints.topRows<3>() + Skew(arm) * base.d_joints.bottomRows<3>(),
+    result.d_base_joints << -base.MotionOf(drawn.translation),
         -LeftJacobian(-turn).inverse() * base.d_joints.bottomRows<3>();
   }
   Vector6d information;

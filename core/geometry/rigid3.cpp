@@ -67,6 +67,17 @@ Rigid3 Displaced(const Rigid3& b_from_a, const Vector6d& displacement_in_b) {
   return {(turn * b_from_a.rotation).normalized(), b_from_a.translation + displacement_in_b.head<3>()};
 }
 
+MovedPoint Move(const Rigid3& b_from_a, const Vector6d& displacement_in_b, const Eigen::Vector3d& x_in_a) {
+  const Rigid3 moved = Displaced(b_from_a, displacement_in_b);
+  const Eigen::Matrix3d rotation = moved.rotation.toRotationMatrix();
+  const Eigen::Vector3d turned = rotation * x_in_a;
+  MovedPoint result{turned + moved.translation, rotation, {}};
+  // d(Exp(omega) x) = -[Exp(omega) x] Jl(omega) d omega.
+  result.d_displacement << Eigen::Matrix3d::Identity(),
+      -Skew(turned) * LeftJacobian(displacement_in_b.tail<3>());
+  return result;
+}
+
 Vector6d Displacement(const Rigid3& from, const Rigid3& to) {
   Vector6d displacement;
   displacement << to.translation - from.translation,

@@ -39,6 +39,15 @@ Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& rotation_vector_rad);
 // b_from_a moved by a small displacement (v, omega) expressed in b: rotation Exp(omega) R, translation t + v.
 Rigid3 Displaced(const Rigid3& b_from_a, const Vector6d& displacement_in_b);
 
+// A point of a taken to b by the displaced transform, with its derivatives by the point and by the
+// displacement.
+struct MovedPoint {
+  Eigen::Vector3d x_in_b;
+  Eigen::Matrix3d d_x_in_a;
+  Eigen::Matrix<double, 3, 6> d_displacement;
+};
+MovedPoint Move(const Rigid3& b_from_a, const Vector6d& displacement_in_b, const Eigen::Vector3d& x_in_a);
+
 // The displacement (v, omega) in b that takes `from` to `to`: to = Displaced(from, Displacement(from, to)).
 Vector6d Displacement(const Rigid3& from, const Rigid3& to);
 

@@ -1,10 +1,10 @@
 // How time and memory of a calibration grow with the number of images.
 #include <sys/resource.h>
 
-#include <chrono>
 #include <string>
 
 #include "calib/leg_calibration.h"
+#include "core/stopwatch.h"
 #include "datasets/synthetic_session.h"
 #include "tests/bench/bench_table.h"
 
@@ -34,9 +34,9 @@ Measured Calibrate(int images) {
                             {},
                             {}};
   input.known.joint_reading_m = options.joint_reading_sigma_m;
-  const auto before = std::chrono::steady_clock::now();
+  const Stopwatch total;
   const LegCalibration found = CalibrateLegs(input, {});
-  const double total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  const double total_s = total.Seconds();
   return {total_s - found.covariance_s, found.covariance_s, PeakMemory_MB(), found.iterations,
           found.status == CalibrationStatus::kConverged};
 }

@@ -1,10 +1,10 @@
 // What shading leaves of the edges' places on the shipped ray-traced session, against what the renderer knew.
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 #include "core/geometry/edge_distance.h"
+#include "core/stopwatch.h"
 #include "core/vision/leg_edges.h"
 #include "tests/bench/bench_table.h"
 #include "tests/testing/rendered_truth.h"
@@ -55,9 +55,9 @@ std::vector<BenchTable> MeasureSession(const std::string& folder) {
     const auto image = ReadGrayImage(file);
     if (!image) throw std::runtime_error(file.string() + " cannot be read");
     const LegsInCamera legs = PlaceLegs(truth.robot, truth.camera_from_base, base_from_platform);
-    const auto before = std::chrono::steady_clock::now();
+    const Stopwatch measuring;
     const LegEdges found = MeasureLegEdges(*image, legs, truth.camera, {});
-    time_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    time_s += measuring.Seconds();
     for (size_t i = 0; i < by_edge.size(); ++i) {
       if (!found.edges[i].left_out.empty()) continue;
       const double offset_px = MeanOffset(found.edges[i], legs, truth.camera);

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "calib/base_frame.h"
+#include "calib/problem_setup.h"
 #include "tests/calib/truth_problem.h"
 
 namespace legible {
@@ -91,21 +92,11 @@ std::vector<ObservedTagGroup> DrawTags(const SyntheticSession& session, const Sy
 
 void AddTagsToProblem(const std::vector<ObservedTagGroup>& tags, double corner_sigma_px,
                       EstimationProblem& problem) {
-  const Rigid3 camera_from_base =
-      FitBaseFrame(BaseJointsInCamera(problem.shared), problem.drawn_base_joints).camera_from_base;
-  for (size_t group = 0; group < tags.size(); ++group) {
-    const TagGroup& drawn = tags[group].group;
-    const bool on_base = drawn.carrier == TagCarrier::kBase;
-    problem.tag_placements.push_back(
-        {drawn.carrier, on_base ? camera_from_base * drawn.carrier_from_group : drawn.carrier_from_group,
-         drawn.carrier_from_group, drawn.translation_sigma_m, drawn.rotation_sigma_rad});
-    for (size_t image = 0; image < (on_base ? 1 : tags[group].detections.size()); ++image)
-      for (size_t t = 0; t < drawn.tags.size(); ++t) {
-        const TagObservation tag{group, drawn.tags[t].corners_m, tags[group].detections[image][t].corners_px,
-                                 corner_sigma_px};
-        (on_base ? problem.base_tags : problem.units[image].tags).push_back(tag);
-      }
-  }
+  AddTags(tags, FitBaseFrame(BaseJointsInCamera(problem.shared), problem.drawn_base_joints).camera_from_base,
+          problem);
+  for (TagObservation& tag : problem.base_tags) tag.sigma_px = corner_sigma_px;
+  for (PoseUnit& unit : problem.units)
+    for (TagObservation& tag : unit.tags) tag.sigma_px = corner_sigma_px;
 }
 
 }  // namespace legible

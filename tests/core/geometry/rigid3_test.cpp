@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/testing/derivatives.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
 
@@ -121,6 +122,27 @@ TEST(Rigid3, DisplacementInvertsDisplaced) {
       const Rigid3 from = RandomTransform(generator);
       const Vector6d displacement = RandomDisplacement(generator, size);
       EXPECT_TRUE(AreNear(Displacement(from, Displaced(from, displacement)), displacement, 4e-15));
+    }
+  }
+}
+
+TEST(Rigid3, MovedPointsAndTheirDerivativesAreThoseOfTheDisplacedTransform) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const double size : {0.0, 1e-8, 3.0}) {
+    for (int i = 0; i < 100; ++i) {
+      const Rigid3 b_from_a = RandomTransform(generator);
+      const Vector6d displacement = RandomDisplacement(generator, size);
+      const Eigen::Vector3d x_in_a = UniformVector(generator, -1, 1);
+      const MovedPoint moved = Move(b_from_a, displacement, x_in_a);
+      const auto by_displacement = [&](const Vector6d& d) -> Eigen::Vector3d {
+        return Displaced(b_from_a, d) * x_in_a;
+      };
+      const auto by_point = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+        return Displaced(b_from_a, displacement) * x;
+      };
+      EXPECT_TRUE(AreNear(moved.x_in_b, by_point(x_in_a), 1e-14));
+      EXPECT_TRUE(AreNear(moved.d_x_in_a, NumericJacobian(by_point, x_in_a), 1e-10));
+      EXPECT_TRUE(AreNear(moved.d_displacement, NumericJacobian(by_displacement, displacement), 1e-9));
     }
   }
 }
