@@ -9,68 +9,90 @@ namespace legible {
 namespace {
 
 // Where brightness is read for flattening, clear of the blurred edge itself (px inside).
-constexpr double kBackgroundFrom = -5, kBackgroundTo = -2, kLegFrom = 1.5, kLegTo = 6;
+constexpr float kBackgroundFrom = -5, kBackgroundTo = -2, kLegFrom = 1.5, kLegTo = 6;
 constexpr double kLeastRelativeContrast = 0.3;  // of a cell, against the median cell's
 constexpr double kLargestRelativeJump =
     0.12;  // of brightness from one neighbour cell to the other, against the contrast
 constexpr double kLargestJump = 3;  // grey levels: less is noise
 constexpr size_t kFewestPixels = 4;
+constexpr double kCoarse_px = 0.5;  // bins of a profile far from the edge
 
-// x range in a row within which |along| <= half_length and -inside <= outward <= outside.
-struct Span {
-  double low, high;
-  void Clip(double slope, double at_zero, double least, double most) {
-    // least <= slope x + at_zero <= most
-    if (std::abs(slope) < 1e-12) {
-      if (at_zero < least || at_zero > most) high = low - 1;
+// least <= slope x + at_zero <= most as a range of x, for one slope and many at_zero.
+class Strip {
+ public:
+  Strip(double slope, double least, double most)
+      : least_(least), most_(most), is_flat_(std::abs(slope) < 1e-12) {
+    if (!is_flat_) per_slope_ = 1 / slope;
+  }
+  // Narrows [low, high].
+  void Clip(double at_zero, double& low, double& high) const {
+    if (is_flat_) {
+      if (at_zero < least_ || at_zero > most_) high = low - 1;
       return;
     }
-    const double a = (least - at_zero) / slope, b = (most - at_zero) / slope;
+    const double a = (least_ - at_zero) * per_slope_, b = (most_ - at_zero) * per_slope_;
     low = std::max(low, std::min(a, b));
     high = std::min(high, std::max(a, b));
   }
+
+ private:
+  double least_, most_, per_slope_ = 0;
+  bool is_flat_;
 };
 
+// Of x >= 0; std::ceil is a function call on machines without SSE 4.1.
+int CeilOf(double x) {
+  const int whole = static_cast<int>(x);
+  return whole + (x > whole ? 1 : 0);
+}
+
+// The pixels of one cell: |along| <= half its length, and -inside_px <= outward <= outside_px.
 void CollectCell(const GrayImage& image, const Eigen::Vector2d& start, const Eigen::Vector2d& end,
                  double outside_px, double inside_px, const BandCell& cell, std::vector<BandPixel>& pixels) {
   const Eigen::Vector2d tangent = (end - start).normalized();
   const double half_length = (end - start).norm() / 2;
-  const double reach = half_length * std::abs(tangent.y()) + std::max(outside_px, inside_px);
+  const double reach =
+      half_length * std::abs(tangent.y()) + std::max(outside_px, inside_px) * std::abs(tangent.x());
   const int top = std::max(0, static_cast<int>(std::ceil(cell.centre_px.y() - reach)));
   const int bottom = std::min(image.height - 1, static_cast<int>(std::floor(cell.centre_px.y() + reach)));
+  const Strip along(tangent.x(), -half_length, half_length);
+  const Strip outward(cell.normal_px.x(), -inside_px, outside_px);
+  const auto step = static_cast<float>(-cell.normal_px.x());
+  // A convex region holds no more lattice points than its area, half its perimeter and one.
+  const size_t first = pixels.size();
+  pixels.resize(first + static_cast<size_t>((2 * half_length + 1) * (outside_px + inside_px + 1)) + 1);
+  BandPixel* next = pixels.data() + first;
   for (int y = top; y <= bottom; ++y) {
     const double dy = y - cell.centre_px.y();
-    Span span{0.0 - cell.centre_px.x(), image.width - 1 - cell.centre_px.x()};
-    span.Clip(tangent.x(), tangent.y() * dy, -half_length, half_length);
-    span.Clip(cell.normal_px.x(), cell.normal_px.y() * dy, -inside_px, outside_px);
-    const int from = static_cast<int>(std::ceil(span.low + cell.centre_px.x()));
-    const int to = static_cast<int>(std::floor(span.high + cell.centre_px.x()));
-    if (from > to) continue;
-    const size_t first = pixels.size();
-    pixels.resize(first + static_cast<size_t>(to - from + 1));
-    const auto at_first =
-        static_cast<float>(-cell.normal_px.dot(Eigen::Vector2d(from - cell.centre_px.x(), dy)));
-    const auto step = static_cast<float>(-cell.normal_px.x());
-    const std::uint8_t* row = image.Row(y) + from;
-    for (int i = 0; i <= to - from; ++i)
-      pixels[first + static_cast<size_t>(i)] = {at_first + static_cast<float>(i) * step,
-                                                static_cast<float>(row[i])};
+    double low = -cell.centre_px.x(), high = image.width - 1 - cell.centre_px.x();
+    along.Clip(tangent.y() * dy, low, high);
+    outward.Clip(cell.normal_px.y() * dy, low, high);
+    if (high < low) continue;
+    const int from = CeilOf(low + cell.centre_px.x()), to = static_cast<int>(high + cell.centre_px.x());
+    auto at = static_cast<float>(-cell.normal_px.dot(Eigen::Vector2d(from - cell.centre_px.x(), dy)));
+    const std::uint8_t* row = image.Row(y);
+    for (int x = from; x <= to; ++x, at += step) *next++ = {at, static_cast<float>(row[x])};
   }
+  pixels.resize(static_cast<size_t>(next - pixels.data()));
 }
 
 // Mean brightness over part of a cell.
 struct Level {
   double sum = 0;
+  double squares = 0;
   double count = 0;
   void Add(double value) {
     sum += value;
+    squares += value * value;
     count += 1;
   }
-  void Add(const Level& other, double weight) {
-    sum += weight * other.sum;
-    count += weight * other.count;
+  void Add(const Level& other) {
+    sum += other.sum;
+    squares += other.squares;
+    count += other.count;
   }
   double Mean() const { return count > 0 ? sum / count : 0; }
+  double Variance() const { return (squares - sum * Mean()) / (count - 1); }
 };
 
 struct Levels {
@@ -80,16 +102,34 @@ struct Levels {
     return background.count >= static_cast<double>(kFewestPixels) &&
            leg.count >= static_cast<double>(kFewestPixels);
   }
+  void Add(const Levels& other) {
+    background.Add(other.background);
+    leg.Add(other.leg);
+  }
 };
 
-Levels LevelsOf(const EdgeBand& band, const BandCell& cell, double place_px) {
-  Levels levels;
-  for (size_t i = cell.first; i < cell.last; ++i) {
-    const double x = band.pixels[i].inside_px - place_px;
-    if (x >= kBackgroundFrom && x <= kBackgroundTo) levels.background.Add(band.pixels[i].brightness);
-    if (x >= kLegFrom && x <= kLegTo) levels.leg.Add(band.pixels[i].brightness);
+// Sums of whole grey levels: exact in single precision up to 258 pixels, about three cells of the usual
+// length.
+struct CellLevel {
+  float sum = 0, squares = 0, count = 0;
+  void Add(float value) {
+    sum += value;
+    squares += value * value;
+    count += 1;
   }
-  return levels;
+  operator Level() const { return {sum, squares, count}; }
+};
+
+Levels LevelsOf(const EdgeBand& band, const BandCell& cell) {
+  CellLevel background, leg;
+  for (size_t i = cell.first; i < cell.last; ++i) {
+    const float x = band.pixels[i].inside_px;
+    if (x >= kLegFrom && x <= kLegTo)
+      leg.Add(band.pixels[i].brightness);
+    else if (x >= kBackgroundFrom && x <= kBackgroundTo)
+      background.Add(band.pixels[i].brightness);
+  }
+  return {background, leg};
 }
 
 // Where the background or the leg changes within a few pixels along the edge (the horizon behind it, a
@@ -129,69 +169,33 @@ void DropUnevenCells(EdgeBand& band, std::vector<Levels>& levels) {
 // Each cell's levels averaged with its neighbours' (1 2 1).
 std::vector<Levels> Smoothed(const std::vector<BandCell>& cells, const std::vector<Levels>& levels) {
   std::vector<Levels> smooth = levels;
-  const auto add = [&](size_t to, size_t from, double weight) {
-    smooth[to].background.Add(levels[from].background, weight);
-    smooth[to].leg.Add(levels[from].leg, weight);
-  };
   for (size_t i = 0; i < cells.size(); ++i) {
-    add(i, i, 1);
+    smooth[i].Add(levels[i]);
     if (!cells[i].follows_previous || i == 0) continue;
-    add(i, i - 1, 1);
-    add(i - 1, i, 1);
+    smooth[i].Add(levels[i - 1]);
+    smooth[i - 1].Add(levels[i]);
   }
   return smooth;
 }
 
 constexpr double kLeastLevel = 5;  // grey levels: below, nothing is in proportion to it
-constexpr double kTableFrom_px = -10, kTableTo_px = 10, kTableStep_px = 1.0 / 8;
-
-std::vector<double> TablePlaces() {
-  std::vector<double> places;
-  for (double x = kTableFrom_px; x <= kTableTo_px; x += kTableStep_px) places.push_back(x);
-  return places;
-}
+constexpr double kFewestForVariance = 8;
 
 }  // namespace
-
-LevelShape::LevelShape() {
-  for (const double x : TablePlaces()) {
-    const auto leg = static_cast<float>(1 / (1 + std::exp(-1.7 * x)));
-    table_.push_back({1 - leg, leg});
-  }
-}
-
-LevelShape::LevelShape(const ProfileFit& fit, const ProfileFitOptions& options) {
-  const std::vector<double> places = TablePlaces();
-  const std::vector<BrightnessParts> parts = PredictParts(fit, places, options);
-  // Against the mean over the distances from which levels are read.
-  Level background, leg;
-  for (size_t i = 0; i < places.size(); ++i) {
-    const double x = places[i] - fit.place_px;
-    if (x >= kBackgroundFrom && x <= kBackgroundTo) background.Add(parts[i].background);
-    if (x >= kLegFrom && x <= kLegTo) leg.Add(parts[i].leg);
-  }
-  if (std::min(std::abs(background.Mean()), std::abs(leg.Mean())) < kLeastLevel) {
-    *this = LevelShape();
-    return;
-  }
-  for (const BrightnessParts& at : parts)
-    table_.push_back(
-        {static_cast<float>(at.background / background.Mean()), static_cast<float>(at.leg / leg.Mean())});
-}
-
-LevelShape::Shares LevelShape::At(float inside_px) const {
-  const float position =
-      (inside_px - static_cast<float>(kTableFrom_px)) * static_cast<float>(1 / kTableStep_px) + 0.5f;
-  return table_[static_cast<size_t>(std::clamp(position, 0.0f, static_cast<float>(table_.size() - 1)))];
-}
 
 EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,
                      double inside_px) {
   EdgeBand band;
+  band.cells.reserve(curve.size());
+  if (curve.size() > 1) {
+    const double length = (curve.back().point_px - curve.front().point_px).norm();
+    band.pixels.reserve(static_cast<size_t>(1.1 * length * (outside_px + inside_px)));
+  }
   bool previous = false;
   for (size_t i = 0; i + 1 < curve.size(); ++i) {
     const PredictedEdgePoint &a = curve[i], &b = curve[i + 1];
-    const bool visible = a.obstacle == EdgeObstacle::kNone && b.obstacle == EdgeObstacle::kNone;
+    const bool visible =
+        a.obstacle == EdgeObstacle::kNone && b.obstacle == EdgeObstacle::kNone && a.point_px != b.point_px;
     if (visible) {
       BandCell cell{
           (a.share + b.share) / 2, (a.point_px + b.point_px) / 2, {}, previous, band.pixels.size(), 0};
@@ -208,69 +212,108 @@ EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoin
   return band;
 }
 
-void Flatten(EdgeBand& band, double place_px, const LevelShape& shape) {
+void MeasureLevels(EdgeBand& band) {
   if (band.cells.empty()) return;
   std::vector<Levels> levels;
-  for (const BandCell& cell : band.cells) levels.push_back(LevelsOf(band, cell, place_px));
+  levels.reserve(band.cells.size());
+  for (const BandCell& cell : band.cells) levels.push_back(LevelsOf(band, cell));
   DropUnevenCells(band, levels);
-  if (band.cells.empty()) return;
   Levels all;
-  for (const Levels& of_cell : levels) {
-    all.background.Add(of_cell.background, 1);
-    all.leg.Add(of_cell.leg, 1);
-  }
+  for (const Levels& of_cell : levels) all.Add(of_cell);
   const std::vector<Levels> smooth = Smoothed(band.cells, levels);
   for (size_t i = 0; i < band.cells.size(); ++i) {
-    const auto background = static_cast<float>(smooth[i].background.Mean() - all.background.Mean());
-    const auto leg = static_cast<float>(smooth[i].leg.Mean() - all.leg.Mean());
-    for (size_t p = band.cells[i].first; p < band.cells[i].last; ++p) {
-      const LevelShape::Shares shares = shape.At(band.pixels[p].inside_px);
-      band.pixels[p].brightness -= background * shares.background + leg * shares.leg;
-    }
+    band.cells[i].background = smooth[i].background.Mean() - all.background.Mean();
+    band.cells[i].leg = smooth[i].leg.Mean() - all.leg.Mean();
+    if (levels[i].background.count >= kFewestForVariance)
+      band.cells[i].background_variance = levels[i].background.Variance();
   }
 }
 
-EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell, double outside_px,
-                       double inside_px, double width_px) {
-  EdgeProfile profile(static_cast<size_t>(std::ceil((outside_px + inside_px) / width_px)));
-  const double per_px = 1 / width_px, bins = static_cast<double>(profile.size());
-  for (size_t c = first_cell; c < last_cell; ++c)
-    for (size_t i = band.cells[c].first; i < band.cells[c].last; ++i) {
+double GreyNoise(const EdgeBand& band) {
+  std::vector<double> variances;
+  for (const BandCell& cell : band.cells)
+    if (cell.background_variance) variances.push_back(*cell.background_variance);
+  return variances.empty() ? 0 : std::sqrt(std::max(MedianOf(std::move(variances)), 0.0));
+}
+
+size_t BinGrid::size() const { return static_cast<size_t>(std::ceil((outside_px + inside_px) / width_px)); }
+
+BandBins BinBand(const EdgeBand& band, size_t first_cell, size_t last_cell, const BinGrid& grid) {
+  BandBins bins(grid.size());
+  const auto per_px = static_cast<float>(1 / grid.width_px), count = static_cast<float>(bins.size());
+  const auto first_px = static_cast<float>(grid.outside_px);
+  for (size_t c = first_cell; c < last_cell; ++c) {
+    const BandCell& cell = band.cells[c];
+    const auto background = static_cast<float>(cell.background), leg = static_cast<float>(cell.leg);
+    for (size_t i = cell.first; i < cell.last; ++i) {
       const BandPixel& pixel = band.pixels[i];
-      const double position = (pixel.inside_px + outside_px) * per_px;
-      if (position < 0 || position >= bins) continue;
-      ProfileBin& bin = profile[static_cast<size_t>(position)];
-      bin.inside_px += pixel.inside_px;
-      bin.brightness += pixel.brightness;
+      const float position = (pixel.inside_px + first_px) * per_px;
+      if (position < 0 || position >= count) continue;
+      BandBin& bin = bins[static_cast<size_t>(static_cast<int>(position))];
+      bin.sums += Eigen::Array4f(pixel.inside_px, pixel.brightness, background, leg);
       bin.count += 1;
     }
-  for (ProfileBin& bin : profile) {
-    if (bin.count == 0) continue;
-    bin.inside_px /= bin.count;
-    bin.brightness /= bin.count;
   }
-  return profile;
+  return bins;
 }
 
-EdgeProfile CoarserFarFromTheEdge(const EdgeProfile& profile, double fine_px) {
-  constexpr int kTogether = 4;
-  EdgeProfile coarser;
-  int in_group = kTogether;
-  for (const ProfileBin& bin : profile) {
-    if (bin.count == 0) continue;
-    if (std::abs(bin.inside_px) < fine_px || in_group == kTogether) {
-      coarser.push_back(bin);
-      in_group = std::abs(bin.inside_px) < fine_px ? kTogether : 1;
+void Add(const BandBins& bins, BandBins& to) {
+  for (size_t i = 0; i < bins.size(); ++i) {
+    to[i].sums += bins[i].sums;
+    to[i].count += bins[i].count;
+  }
+}
+
+LevelShape SoftStep(const BinGrid& grid) {
+  LevelShape shape;
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const double leg = 1 / (1 + std::exp(-1.7 * grid.Middle(i)));
+    shape.push_back({1 - leg, leg});
+  }
+  return shape;
+}
+
+LevelShape ShapeOf(const ProfileFit& fit, const ProfileFitOptions& options, const BinGrid& grid) {
+  std::vector<double> places;
+  for (size_t i = 0; i < grid.size(); ++i) places.push_back(grid.Middle(i));
+  const std::vector<BrightnessParts> parts = PredictParts(fit, places, options);
+  // Against the mean over the distances from which levels are read.
+  Level background, leg;
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (places[i] >= kBackgroundFrom && places[i] <= kBackgroundTo) background.Add(parts[i].background);
+    if (places[i] >= kLegFrom && places[i] <= kLegTo) leg.Add(parts[i].leg);
+  }
+  if (std::min(std::abs(background.Mean()), std::abs(leg.Mean())) < kLeastLevel) return SoftStep(grid);
+  LevelShape shape;
+  for (const BrightnessParts& at : parts)
+    shape.push_back({at.background / background.Mean(), at.leg / leg.Mean()});
+  return shape;
+}
+
+EdgeProfile FlatProfile(const BandBins& bins, const LevelShape& shape, const BinGrid& grid, double fine_px) {
+  const int together = std::max(1, static_cast<int>(std::lround(kCoarse_px / grid.width_px)));
+  EdgeProfile profile;
+  profile.reserve(bins.size());
+  int in_group = together;
+  for (size_t i = 0; i < bins.size(); ++i) {
+    const BandBin& sum = bins[i];
+    if (sum.count == 0) continue;
+    const double flat = sum.sums[1] - shape[i].background * sum.sums[2] - shape[i].leg * sum.sums[3];
+    const ProfileBin bin{sum.sums[0] / sum.count, flat / sum.count, sum.count};
+    const bool is_fine = std::abs(bin.inside_px) < fine_px;
+    if (is_fine || in_group == together) {
+      profile.push_back(bin);
+      in_group = is_fine ? together : 1;
       continue;
     }
-    ProfileBin& group = coarser.back();
+    ProfileBin& group = profile.back();
     const double count = group.count + bin.count;
     group.inside_px += (bin.inside_px - group.inside_px) * bin.count / count;
     group.brightness += (bin.brightness - group.brightness) * bin.count / count;
     group.count = count;
     ++in_group;
   }
-  return coarser;
+  return profile;
 }
 
 std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px) {
@@ -285,22 +328,6 @@ std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double le
       stretches.emplace_back(first + i * (last - first) / parts, first + (i + 1) * (last - first) / parts);
   }
   return stretches;
-}
-
-double GreyNoise(const EdgeBand& band) {
-  std::vector<double> variances;
-  for (const BandCell& cell : band.cells) {
-    const Level mean = LevelsOf(band, cell, 0).background;
-    if (mean.count < 8) continue;
-    double squares = 0;
-    for (size_t i = cell.first; i < cell.last; ++i) {
-      const double x = band.pixels[i].inside_px;
-      if (x >= kBackgroundFrom && x <= kBackgroundTo)
-        squares += std::pow(band.pixels[i].brightness - mean.Mean(), 2);
-    }
-    variances.push_back(squares / (mean.count - 1));
-  }
-  return variances.empty() ? 0 : std::sqrt(MedianOf(variances));
 }
 
 }  // namespace legible

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct BandCell {
   Eigen::Vector2d normal_px;      // unit, away from the leg
   bool follows_previous = false;  // shares an end with the cell before it
   size_t first = 0, last = 0;     // its pixels
+  // Grey levels by which the background and the leg are brighter here than along the whole band
+  // (MeasureLevels).
+  double background = 0, leg = 0;
+  std::optional<double> background_variance =
+      {};  // of the background's pixels about their mean; none: too few
 };
 
 // Every pixel whose centre lies within a window about the visible stretches of a curve, each once and as it
@@ -38,41 +44,57 @@ struct EdgeBand {
 EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,
                      double inside_px);
 
-// How strongly a change of the background's or the leg's mean level shows at a distance from the edge.
-class LevelShape {
- public:
-  LevelShape();  // a soft step at 0: nothing is known of the edge yet
-  // As the fit has it: brightness changes in proportion, so a leg's level changes less where it is dark.
-  LevelShape(const ProfileFit& fit, const ProfileFitOptions& options);
+// Finds how the background and the leg change along the edge (texture, shadows, light falling off), each
+// about its own mean. Cells whose contrast is missing or reversed, or whose brightness jumps to a neighbour's
+// (something unforeseen covers the leg) are dropped.
+void MeasureLevels(EdgeBand& band);
 
-  struct Shares {
-    float background, leg;
-  };
-  Shares At(float inside_px) const;
+// Standard deviation of a pixel's grey noise, from the background's scatter about each cell's own mean; 0 if
+// there are too few pixels. After MeasureLevels.
+double GreyNoise(const EdgeBand& band);
 
- private:
-  std::vector<Shares> table_;
+// Equal bins of the distance from the curve.
+struct BinGrid {
+  double outside_px, inside_px, width_px;
+
+  size_t size() const;
+  double Middle(size_t bin) const { return (static_cast<double>(bin) + 0.5) * width_px - outside_px; }
 };
 
-// Takes out of the band how the background and the leg change along the edge (texture, shadows, light falling
-// off), each about its own mean: what is left changes across the edge only. `place_px`: the edge in the band.
-// Cells whose contrast is missing or reversed (something unforeseen covers the leg) are dropped.
-void Flatten(EdgeBand& band, double place_px, const LevelShape& shape);
+// Sums over the pixels of each bin of a grid.
+struct BandBin {
+  Eigen::Array4f sums =
+      Eigen::Array4f::Zero();  // of inside_px and brightness, and of background and leg of their cells
+  float count = 0;
 
-// Mean brightness in bins of `width_px` over the cells [first_cell, last_cell).
-EdgeProfile BinProfile(const EdgeBand& band, size_t first_cell, size_t last_cell, double outside_px,
-                       double inside_px, double width_px);
+  double MeanBrightness() const { return sums[1] / count; }
+};
+using BandBins = std::vector<BandBin, Eigen::aligned_allocator<BandBin>>;
 
-// The same profile with groups of bins that begin more than `fine_px` from the curve put together: shading is
+// Of the cells [first_cell, last_cell).
+BandBins BinBand(const EdgeBand& band, size_t first_cell, size_t last_cell, const BinGrid& grid);
+
+// Adds another stretch of the same grid.
+void Add(const BandBins& bins, BandBins& to);
+
+// How strongly a change of the background's or the leg's mean level shows in each bin.
+struct LevelShares {
+  double background, leg;
+};
+using LevelShape = std::vector<LevelShares>;
+
+// A soft step at 0: nothing is known of the edge yet.
+LevelShape SoftStep(const BinGrid& grid);
+// As the fit has it: brightness changes in proportion, so a leg's level changes less where it is dark.
+LevelShape ShapeOf(const ProfileFit& fit, const ProfileFitOptions& options, const BinGrid& grid);
+
+// Mean brightness in each bin, less what MeasureLevels found to change along the edge: what is left changes
+// across it only. Bins more than `fine_px` from the curve are put together to half a pixel: shading is
 // smooth there.
-EdgeProfile CoarserFarFromTheEdge(const EdgeProfile& profile, double fine_px);
+EdgeProfile FlatProfile(const BandBins& bins, const LevelShape& shape, const BinGrid& grid, double fine_px);
 
 // Groups of neighbouring cells, [first, last): each run of cells that follow each other in equal parts of
 // about `length_px`.
 std::vector<std::pair<size_t, size_t>> Stretches(const EdgeBand& band, double length_px, double step_px);
-
-// Standard deviation of a pixel's grey noise, from the background's scatter about each cell's own mean; 0 if
-// there are too few pixels.
-double GreyNoise(const EdgeBand& band);
 
 }  // namespace legible

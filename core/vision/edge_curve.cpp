@@ -16,8 +16,7 @@ std::optional<Eigen::Vector3d> NormalThrough(const Camera& camera, const Eigen::
   return normal.dot(like) < 0 ? Eigen::Vector3d(-normal) : normal;
 }
 
-}  // namespace
-
+// To a new outline normal.
 void MoveTo(const Camera& camera, const LegInCamera& leg, const Eigen::Vector3d& normal,
             PredictedEdge& edge) {
   edge.normal = normal;
@@ -31,6 +30,8 @@ void MoveTo(const Camera& camera, const LegInCamera& leg, const Eigen::Vector3d&
     point.normal_px = moved->normal_px;
   }
 }
+
+}  // namespace
 
 void ShiftEnds(const Camera& camera, const LegInCamera& leg, double at_a_px, double at_b_px,
                PredictedEdge& edge) {

@@ -9,10 +9,8 @@
 
 namespace legible {
 
-// Moves the curve of the leg's edge to a new outline normal; its points keep their visibility.
-void MoveTo(const Camera& camera, const LegInCamera& leg, const Eigen::Vector3d& normal, PredictedEdge& edge);
-
-// Moves it by `at_a_px` and `at_b_px` outward at the leg's two ends; leaves it where the lens folds over.
+// Moves the curve of the leg's edge by `at_a_px` and `at_b_px` outward at the leg's two ends, to a straight
+// edge; its points keep their visibility. Leaves it where the lens folds over.
 void ShiftEnds(const Camera& camera, const LegInCamera& leg, double at_a_px, double at_b_px,
                PredictedEdge& edge);
 

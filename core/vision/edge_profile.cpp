@@ -9,15 +9,18 @@ namespace {
 
 constexpr int kMaxSteps = 12;
 constexpr double kLongestStep_px = 0.5;
-constexpr double kSteady_px = 1e-3;    // the step after it would be a tenth of that
+constexpr double kFarthestFlat_px =
+    1;                               // from the start, for the other models to begin at the flat one's place
+constexpr double kSteady_px = 3e-3;  // the step after it would be a tenth of that
 constexpr double kOutsideSlope = 0.3;  // grey levels per px: prior of the background's slope
 constexpr double kKink = 28.6;  // grey levels per rad: prior of a kink in brightness over surface angle
 // By which the squares must fall for a stretch to count as shaded in its own way.
 constexpr double kEvidenceOfChange = 25;
 constexpr double kCoefficientsOfKinks = 2.5;  // that a kinked profile counts for beyond the angular one's
 constexpr double kAmbientLevel = 25, kAmbientScatter = 5;  // grey levels: prior of the light from everywhere
-constexpr double kHeld = 100;                              // inverse sigma of what keeps its expected value
-constexpr double kStrictness = 2;                          // times the BIC's price of a coefficient
+constexpr double kDarkest = -10;   // grey levels: a leg darker than nothing at its edge is a wrong fit
+constexpr double kHeld = 100;      // inverse sigma of what keeps its expected value
+constexpr double kStrictness = 2;  // times the BIC's price of a coefficient
 
 using Columns = ShadingBasis::Columns;
 constexpr int kMaxColumns = ShadingBasis::kMaxColumns;
@@ -83,10 +86,8 @@ class Linearisation {
  public:
   Linearisation(const EdgeProfile& profile, const ShadingBasis& basis, const ProfileFitOptions& options)
       : basis_(basis), options_(options) {
-    const auto bins = static_cast<Eigen::Index>(profile.size());
-    values_.resize(bins, basis.size());
-    slopes_.resize(bins, basis.size());
-    brightness_.resize(bins);
+    columns_.resize(static_cast<Eigen::Index>(profile.size()), 2 * basis.size() + kOtherColumns);
+    weighed_.reserve(profile.size());
     for (const ProfileBin& bin : profile)
       if (bin.count > 0)
         weighed_.push_back({bin.inside_px, bin.brightness, std::sqrt(bin.count) / options.grey_noise});
@@ -94,32 +95,38 @@ class Linearisation {
 
   void MoveTo(double place_px) {
     const int n = basis_.size();
-    bins_ = 0;
+    const Eigen::Index rows = columns_.rows();
+    double* const first = columns_.data();
+    double* row = first;
     Columns value, slope;
     for (const Weighed& bin : weighed_) {
       const double x = bin.inside_px - place_px;
       if (x < -options_.outside_px || x > options_.inside_px) continue;
       basis_.Evaluate(x, value, slope);
-      values_.row(bins_) = bin.weight * value.head(n).transpose();
-      slopes_.row(bins_) = bin.weight * slope.head(n).transpose();
-      brightness_[bins_] = bin.weight * bin.brightness;
-      ++bins_;
+      double* column = row;
+      for (int i = 0; i < n; ++i, column += rows) *column = bin.weight * value[i];
+      for (int i = 0; i < n; ++i, column += rows) *column = bin.weight * slope[i];
+      column[kBrightness * rows] = bin.weight * bin.brightness;
+      column[kWeight * rows] = bin.weight;
+      column[kPlace * rows] = x;
+      ++row;
     }
+    bins_ = static_cast<int>(row - first);
     matrix_.setZero(n + 1, n + 1);
-    const auto values = values_.topRows(bins_);
+    const auto values = Values();
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j) matrix_(i, j) = values.col(i).dot(values.col(j));
   }
 
   int bins() const { return bins_; }
 
-  Coefficients BestCoefficients(const CoefficientPrior& prior) const {
+  Coefficients BestCoefficients(const CoefficientPrior& prior) {
     const Eigen::Index n = basis_.size();
     const Coefficients information = prior.inverse_sigma.cwiseAbs2();
     NormalMatrix matrix = matrix_.topLeftCorner(n, n);
     matrix.diagonal() += information;
     const Coefficients right =
-        values_.topRows(bins_).transpose() * brightness_.head(bins_) + information.cwiseProduct(prior.mean);
+        Values().transpose() * Column(kBrightness) + information.cwiseProduct(prior.mean);
     return Eigen::LDLT<NormalMatrix>(matrix).solve(right);
   }
 
@@ -132,31 +139,69 @@ class Linearisation {
     double place_variance;
   };
 
-  Step StepFrom(const Coefficients& coefficients, const CoefficientPrior& prior) const {
+  Step StepFrom(const Coefficients& coefficients, const CoefficientPrior& prior) {
     const Eigen::Index n = basis_.size();
-    const auto values = values_.topRows(bins_);
-    const Eigen::VectorXd residual = brightness_.head(bins_) - values * coefficients;
-    const Eigen::VectorXd by_place = -slopes_.topRows(bins_) * coefficients;
+    const Equations equations = EquationsAt(coefficients, prior);
+    auto residual = Column(kResidual);
+    Step step;
+    step.change = equations.factor.solve(equations.right);
+    residual.noalias() -= Values() * step.change.head(n);
+    residual -= Column(kByPlace) * step.change[n];
+    step.data_squares = residual.squaredNorm();
+    step.squares =
+        step.data_squares +
+        prior.inverse_sigma.cwiseProduct(coefficients - prior.mean + step.change.head(n)).squaredNorm();
+    step.place_variance = equations.factor.solve(Unknowns::Unit(n + 1, n))[n];
+    return step;
+  }
+
+  BlurEvidence OnBlur(const Coefficients& coefficients, const CoefficientPrior& prior) {
+    const Eigen::Index n = basis_.size();
+    const Equations equations = EquationsAt(coefficients, prior);
+    Eigen::VectorXd by_blur(bins_);
+    for (int i = 0; i < bins_; ++i)
+      by_blur[i] = Column(kWeight)[i] * basis_.SlopeByBlur(Column(kPlace)[i], coefficients);
+    Unknowns cross(n + 1);
+    cross.head(n).noalias() = Values().transpose() * by_blur;
+    cross[n] = Column(kByPlace).dot(by_blur);
+    const Unknowns followed = equations.factor.solve(cross);
+    return {by_blur.squaredNorm() - cross.dot(followed),
+            by_blur.dot(Column(kResidual)) - followed.dot(equations.right)};
+  }
+
+ private:
+  // Of the bins within the window: the functions, their slopes, and then these.
+  enum OtherColumn { kBrightness, kWeight, kPlace, kResidual, kByPlace, kOtherColumns };
+  Eigen::Block<Eigen::MatrixXd> Values() { return columns_.topLeftCorner(bins_, basis_.size()); }
+  Eigen::Block<Eigen::MatrixXd> Slopes() { return columns_.block(0, basis_.size(), bins_, basis_.size()); }
+  auto Column(OtherColumn column) -> Eigen::VectorBlock<Eigen::MatrixXd::ColXpr> {
+    return columns_.col(2 * basis_.size() + column).head(bins_);
+  }
+
+  // Normal equations of coefficients and place; leaves kResidual and kByPlace at the coefficients.
+  struct Equations {
+    Eigen::LDLT<NormalMatrix> factor;
+    Unknowns right;
+  };
+  Equations EquationsAt(const Coefficients& coefficients, const CoefficientPrior& prior) {
+    const Eigen::Index n = basis_.size();
+    const auto values = Values();
+    auto residual = Column(kResidual), by_place = Column(kByPlace);
+    residual = Column(kBrightness);
+    residual.noalias() -= values * coefficients;
+    by_place.noalias() = Slopes() * -coefficients;
     const Coefficients information = prior.inverse_sigma.cwiseAbs2();
-    const Coefficients off = coefficients - prior.mean;
     NormalMatrix matrix = matrix_;
     matrix.diagonal().head(n) += information;
     for (Eigen::Index i = 0; i < n; ++i) matrix(n, i) = by_place.dot(values.col(i));
     matrix(n, n) = by_place.squaredNorm();
     Unknowns right(n + 1);
-    right.head(n) = values.transpose() * residual - information.cwiseProduct(off);
+    for (Eigen::Index i = 0; i < n; ++i) right[i] = values.col(i).dot(residual);
+    right.head(n) -= information.cwiseProduct(coefficients - prior.mean);
     right[n] = by_place.dot(residual);
-    const Eigen::LDLT<NormalMatrix> factor(matrix);
-    Step step;
-    step.change = factor.solve(right);
-    step.data_squares = (residual - values * step.change.head(n) - by_place * step.change[n]).squaredNorm();
-    step.squares =
-        step.data_squares + prior.inverse_sigma.cwiseProduct(off + step.change.head(n)).squaredNorm();
-    step.place_variance = factor.solve(Unknowns::Unit(n + 1, n))[n];
-    return step;
+    return {Eigen::LDLT<NormalMatrix>(matrix), right};
   }
 
- private:
   struct Weighed {
     double inside_px, brightness, weight;
   };
@@ -164,8 +209,7 @@ class Linearisation {
   const ShadingBasis& basis_;
   const ProfileFitOptions& options_;
   std::vector<Weighed> weighed_;
-  Eigen::MatrixXd values_, slopes_;
-  Eigen::VectorXd brightness_;
+  Eigen::MatrixXd columns_;
   int bins_ = 0;
   NormalMatrix matrix_;  // of the coefficients: lower triangle
 };
@@ -211,7 +255,11 @@ std::optional<ProfileFit> Fit(Linearisation& at, ShadingModel model, const Coeff
       continue;
     }
     *coefficients += step.change.head(n);
-    if (std::abs(moved) < kSteady_px) return Summarise(step, at.bins(), model, place, *coefficients);
+    if (std::abs(moved) < kSteady_px) {
+      const double leg_level = (*coefficients)[model == ShadingModel::kFlat ? 1 : ShadingBasis::kLevel];
+      if (leg_level < kDarkest) return std::nullopt;
+      return Summarise(step, at.bins(), model, place, *coefficients);
+    }
   }
   return std::nullopt;
 }
@@ -256,17 +304,29 @@ std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFi
   return changing ? changing : alike;
 }
 
-double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const ProfileFitOptions& options) {
+std::optional<ProfileFit> Refit(const EdgeProfile& profile, const ProfileFit& fit,
+                                const ProfileFitOptions& options) {
+  const ShadingBasis basis = BasisOf(fit.model, options);
+  Linearisation at(profile, basis, options);
+  return Fit(at, fit.model, PriorOf(basis), {fit.place_px, Resized(fit.coefficients, basis.size())}, options);
+}
+
+BlurEvidence EvidenceOnBlur(const EdgeProfile& profile, const ProfileFit& fit,
+                            const ProfileFitOptions& options) {
   const ShadingBasis basis = BasisOf(fit.model, options);
   Linearisation at(profile, basis, options);
   at.MoveTo(fit.place_px);
-  return at.StepFrom(Resized(fit.coefficients, basis.size()), PriorOf(basis)).squares;
+  const BlurEvidence evidence = at.OnBlur(Resized(fit.coefficients, basis.size()), PriorOf(basis));
+  const double misfit = std::max(fit.chi2_per_bin, 1.0);
+  return {evidence.information / misfit, evidence.moment / misfit};
 }
 
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options) {
   const auto flat = FitProfile(profile, ShadingModel::kFlat, start_px, options);
-  const double start = flat ? flat->place_px : start_px;
+  // A shaded leg can draw the flat model's step far inside, where it grows bright.
+  const bool is_near = flat && std::abs(flat->place_px - start_px) < kFarthestFlat_px;
+  const double start = is_near ? flat->place_px : start_px;
   const auto angular = FitProfile(profile, ShadingModel::kAngular, start, options);
   const double price = kStrictness * std::log(static_cast<double>(std::max<size_t>(profile.size(), 2)));
   const auto simpler = [&](double misfit) {
@@ -276,9 +336,14 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
     return score(flat) <= score(angular) ? std::pair(flat, score(flat)) : std::pair(angular, score(angular));
   };
   const auto [plain, of_plain] = simpler(1);
-  // Where noise alone leaves as much, kinks have nothing to explain.
-  if (plain && plain->squares < static_cast<double>(profile.size())) return plain;
-  const auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
+  // Where noise alone leaves as much, give or take its own scatter, kinks have nothing to explain.
+  const auto bins =
+      static_cast<double>(std::count_if(profile.begin(), profile.end(), [&](const ProfileBin& bin) {
+        return bin.inside_px - start >= -options.outside_px && bin.inside_px - start <= options.inside_px;
+      }));
+  if (plain && plain->squares < bins + std::sqrt(2 * bins)) return plain;
+  auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
+  if (!kinked) kinked = FitProfile(profile, ShadingModel::kKinked, start_px, options);
   if (!kinked) return plain;
   const double misfit = std::max(kinked->chi2_per_bin, 1.0);
   const auto [best, of_best] = simpler(misfit);

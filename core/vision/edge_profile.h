@@ -50,11 +50,20 @@ std::optional<ProfileFit> FitProfile(const EdgeProfile& profile, ShadingModel mo
 std::optional<ProfileFit> FitStretch(const EdgeProfile& profile, const ProfileFit& whole,
                                      const ProfileFitOptions& options);
 
-// What the squares of a fit would be at the blur of `options`, its place and coefficients moved there by one
-// linear step.
-double SquaresAtBlur(const EdgeProfile& profile, const ProfileFit& fit, const ProfileFitOptions& options);
+// The fit's own model once more, from where it stands, at the options' blur.
+std::optional<ProfileFit> Refit(const EdgeProfile& profile, const ProfileFit& fit,
+                                const ProfileFitOptions& options);
 
-// The simplest model that explains the profile: flat first (which finds the place from afar), then the others
+// What a profile says of the blur once place and coefficients follow it: the squares fall by moment^2 /
+// information (in noise variances, or in those that the misfit shows where it is larger) with a step of
+// moment / information px.
+struct BlurEvidence {
+  double information = 0, moment = 0;
+};
+BlurEvidence EvidenceOnBlur(const EdgeProfile& profile, const ProfileFit& fit,
+                            const ProfileFitOptions& options);
+
+// The simplest model that explains the profile: flat first, then the others
 // from there; a richer model must lower the squares (relative to the richest's misfit) by more than the
 // Bayesian information criterion asks for its coefficients.
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,

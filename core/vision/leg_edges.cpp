@@ -17,17 +17,27 @@ namespace legible {
 namespace {
 
 constexpr double kOutside_px = 6.5, kInside_px = 6;  // the fine band
-constexpr double kBin_px = 0.125, kFineBins_px = 2.5;
+// A little wider than the window of the fit, whose centre moves with the place.
+constexpr BinGrid kGrid{kOutside_px + 1, kInside_px + 1, 0.25};
+constexpr double kFineBins_px = 2.5;
 constexpr double kLargestStretchSigma_px = 0.15;  // beyond, something else than shading disturbs the stretch
 constexpr double kLargestRelativeSigma = 3;       // of a stretch, against the median stretch's
-constexpr double kLeastStretchContrast = 12;      // grey levels, of the same sign as the whole edge's
-constexpr double kLeastGreyNoise = 0.5;           // quantisation alone leaves 0.3
+// What the fit of a stretch may leave, in noise variances a bin, and as a share of the contrast: both
+// exceeded, something other than shading crosses the band.
+constexpr double kLargestMisfit = 8, kLargestMisfitShare = 0.02;
+constexpr double kLeastStretchContrast = 12;  // grey levels, of the same sign as the whole edge's
+constexpr double kLeastGreyNoise = 0.5;       // quantisation alone leaves 0.3
 // Shading that no model here follows, as a step in brightness beside the edge (grey levels): it moves the
 // place by its share of the contrast.
 constexpr double kStretchMisfit = 1.5, kEdgeMisfit = 1.0;
-constexpr double kFirstBlur_px = 0.75, kLastBlurStep_px = 0.05;
-constexpr double kPlainBlurStep_px = 0.1, kFirstBlurStep_px = 0.15;
-constexpr int kMostBlurRounds = 30;
+constexpr double kFirstBlur_px = 0.75, kLeastBlur_px = 0.3, kMostBlur_px = 4;
+constexpr double kLongestBlurStep_px = 0.25, kSteadyBlur_px = 0.01;
+constexpr double kSameBlur_px = 0.02;  // at which the same models fit
+constexpr int kMostBlurSteps = 20, kMostModelRounds = 6;
+// A curve this far off its edge at an end, by its two halves, is moved; not where the halves say it is
+// absurdly far.
+constexpr double kOffEdge_px = 0.25, kAbsurdlyOff_px = 2;
+constexpr int kMostMoves = 3;
 constexpr const char* kNoEdge = "no edge in the brightness across it";
 
 // One edge on its way through the stages.
@@ -36,6 +46,10 @@ struct Work {
   const LegInCamera* leg = nullptr;
   PredictedEdge predicted;  // its points follow `normal`
   EdgeBand band;
+  std::vector<std::pair<size_t, size_t>> stretches;  // of the band's cells: one sample each
+  std::vector<BandBins> bins;                        // of each stretch
+  BandBins whole;                                    // of all of them
+  LevelShape shape;
   EdgeProfile profile;
   ProfileFitOptions fit_options;
   std::optional<ProfileFit> fit;
@@ -45,16 +59,22 @@ struct Work {
 
 // ---- The fine stage: one profile of the whole edge, one blur of the whole image.
 
-EdgeProfile ProfileOf(const EdgeBand& band, size_t first_cell, size_t last_cell) {
-  return CoarserFarFromTheEdge(
-      BinProfile(band, first_cell, last_cell, kOutside_px + 1, kInside_px + 1, kBin_px), kFineBins_px);
+void CollectProfile(const GrayImage& image, const LegEdgeOptions& options, Work& work) {
+  work.band = CollectBand(image, work.predicted.points, kGrid.outside_px, kGrid.inside_px);
+  MeasureLevels(work.band);
+  work.stretches = Stretches(work.band, options.sample_length_px, options.visibility.step_px);
+  work.bins.clear();
+  work.whole.assign(kGrid.size(), BandBin());
+  for (const auto& [first, last] : work.stretches) {
+    work.bins.push_back(BinBand(work.band, first, last, kGrid));
+    Add(work.bins.back(), work.whole);
+  }
 }
 
-void CollectProfile(const GrayImage& image, double place_px, const LevelShape& shape, Work& work) {
-  // A little wider than the window of the fit, whose centre moves with the place.
-  work.band = CollectBand(image, work.predicted.points, kOutside_px + 1, kInside_px + 1);
-  Flatten(work.band, place_px, shape);
-  work.profile = ProfileOf(work.band, 0, work.band.cells.size());
+// The profile of the whole edge, its levels flattened by the shape.
+void FlattenBy(LevelShape shape, Work& work) {
+  work.shape = std::move(shape);
+  work.profile = FlatProfile(work.whole, work.shape, kGrid, kFineBins_px);
 }
 
 void FitAt(double blur_px, Work& work) {
@@ -62,44 +82,50 @@ void FitAt(double blur_px, Work& work) {
   work.fit = FitSimplestModel(work.profile, 0, work.fit_options);
 }
 
-// Keeps the fit where a plain edge is not to be had.
-void FitAsPlain(double blur_px, Work& work) {
+// Keeps the fit where there is none at the other blur.
+void RefitAt(double blur_px, Work& work) {
   work.fit_options.blur_px = blur_px;
-  if (const auto plain = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options)) work.fit = plain;
+  if (const auto fit = Refit(work.profile, *work.fit, work.fit_options)) work.fit = fit;
 }
 
-// Squares of all edges at a blur, each in proportion to how well its model fits it.
-double SquaresAt(double blur_px, const std::vector<Work>& works) {
-  double sum = 0;
-  for (const Work& work : works) {
-    if (work.Dropped() || !work.fit) continue;
-    ProfileFitOptions options = work.fit_options;
-    options.blur_px = std::max(blur_px, 0.1);
-    sum += SquaresAtBlur(work.profile, *work.fit, options) / std::max(work.fit->chi2_per_bin, 1.0);
-  }
-  return sum;
-}
-
-// Towards the blur at which all edges together fit best, by the parabola through three neighbouring misfits.
-double ImprovedBlur(double blur_px, double step_px, const std::vector<Work>& works) {
-  const double low = SquaresAt(blur_px - step_px, works), mid = SquaresAt(blur_px, works),
-               high = SquaresAt(blur_px + step_px, works);
-  const double curvature = low - 2 * mid + high;
-  const double steps = curvature <= 0 ? (low < high ? -1 : 1) : 0.5 * (low - high) / curvature;
-  return std::clamp(blur_px + step_px * std::clamp(steps, -1.5, 1.5), 0.3, 4.0);
+// The mean place of the stretches [first, last), and where along the leg that is.
+struct PlaceOfPart {
+  double share, place_px;
+};
+std::optional<PlaceOfPart> PlaceOf(size_t first, size_t last, const Work& work) {
+  BandBins bins = work.bins[first];
+  for (size_t i = first + 1; i < last; ++i) Add(work.bins[i], bins);
+  const auto fit =
+      FitStretch(FlatProfile(bins, work.shape, kGrid, kFineBins_px), *work.fit, work.fit_options);
+  if (!fit) return std::nullopt;
+  double share = 0, cells = 0;
+  for (size_t cell = work.stretches[first].first; cell < work.stretches[last - 1].second; ++cell, ++cells)
+    share += work.band.cells[cell].share;
+  return PlaceOfPart{share / cells, fit->place_px};
 }
 
 // ---- Samples: the place of each stretch, from its own profile.
 
+bool IsDisturbed(const EdgeProfile& profile, const ProfileFit& fit, double grey_noise) {
+  if (fit.chi2_per_bin <= kLargestMisfit) return false;
+  double pixels = 0;
+  for (const ProfileBin& bin : profile) pixels += bin.count;
+  const double pixels_a_bin = pixels / static_cast<double>(profile.size());
+  const double left = grey_noise * std::sqrt((fit.chi2_per_bin - 1) / pixels_a_bin);
+  return left > kLargestMisfitShare * std::abs(fit.contrast);
+}
+
 // One stretch's place, with coefficients of its own: shading changes along a leg.
-void SampleStretch(size_t first, size_t last, Work& work) {
+void SampleStretch(size_t stretch, Work& work) {
+  const auto [first, last] = work.stretches[stretch];
   const BandCell& cell = work.band.cells[(first + last) / 2];
-  const EdgeProfile profile = ProfileOf(work.band, first, last);
+  const EdgeProfile profile = FlatProfile(work.bins[stretch], work.shape, kGrid, kFineBins_px);
   ProfileFitOptions options = work.fit_options;
   options.half_width_px *= work.leg->AxisPoint(0.5).z() / work.leg->AxisPoint(cell.share).z();
   const auto fit = FitStretch(profile, *work.fit, options);
   if (!fit || fit->contrast * work.fit->contrast < kLeastStretchContrast * std::abs(work.fit->contrast))
     return;
+  if (IsDisturbed(profile, *fit, options.grey_noise)) return;
   Eigen::Vector2d centre = cell.centre_px;
   if ((last - first) % 2 == 0)  // an even number of cells: their middle is the end of a cell
     centre = (centre + work.band.cells[(first + last) / 2 - 1].centre_px) / 2;
@@ -119,10 +145,9 @@ void DropDisturbedSamples(std::vector<EdgeSample>& samples) {
   std::erase_if(samples, [&](const EdgeSample& sample) { return sample.sigma_px > largest; });
 }
 
-void Sample(const LegEdgeOptions& options, double length_px, Work& work) {
+void Sample(Work& work) {
   work.result->observation = {work.result->leg, work.result->edge, {}, 0};
-  for (const auto& [first, last] : Stretches(work.band, length_px, options.visibility.step_px))
-    SampleStretch(first, last, work);
+  for (size_t stretch = 0; stretch < work.stretches.size(); ++stretch) SampleStretch(stretch, work);
   DropDisturbedSamples(work.result->observation.samples);
   work.result->observation.common_sigma_px = std::hypot(work.fit->sigma_px, kEdgeMisfit / work.fit->contrast);
   work.result->contrast = work.fit->contrast;
@@ -135,6 +160,9 @@ void FitLine(const Camera& camera, Work& work) {
   work.result->normal_covariance = line.normal_covariance;
   work.result->observation.samples = std::move(line.samples);
   work.result->rms_px = line.rms_px;
+  // Shading that moves the stretches unlike each other moves their mean by as much.
+  double& common_sigma_px = work.result->observation.common_sigma_px;
+  common_sigma_px = std::hypot(common_sigma_px, line.rms_px);
 }
 
 void Judge(const LegEdgeOptions& options, Work& work) {
@@ -143,7 +171,8 @@ void Judge(const LegEdgeOptions& options, Work& work) {
     edge.left_out = fmt::format("contrast of only {:.0f} grey levels", std::abs(edge.contrast));
   else if (!(edge.observation.common_sigma_px <= options.largest_common_sigma_px))
     edge.left_out =
-        fmt::format("its shading leaves its place open by {:.2f} px", edge.observation.common_sigma_px);
+        fmt::format("its place is open by {:.2f} px: shading, or stretches that do not lie on one line",
+                    edge.observation.common_sigma_px);
   else if (edge.observation.samples.size() < 3)
     edge.left_out = "fewer than three stretches lie on one line";
 }
@@ -165,6 +194,10 @@ class Measurement {
                         {},
                         {},
                         {},
+                        {},
+                        {},
+                        {},
+                        {},
                         {}});
     }
     if (options.lock) Lock(predicted);
@@ -176,12 +209,10 @@ class Measurement {
       if (!work.Dropped()) Trace(work);
     if (options_.rough_only) return std::move(result_);
     for (Work& work : works_)
-      if (!work.Dropped()) CollectProfile(image_, 0, LevelShape(), work);
+      if (!work.Dropped()) CollectProfile(image_, options_, work);
     result_.grey_noise = CommonGreyNoise();
-    const double first_blur = options_.blur_px.value_or(kFirstBlur_px);
-    for (Work& work : works_) FitFirst(first_blur, work);
-    for (Work& work : works_) Recentre(work);
-    result_.blur_px = options_.blur_px ? *options_.blur_px : FindBlur();
+    for (Work& work : works_) FitFirst(work);
+    result_.blur_px = AnyLeft() ? FindBlur() : 0;
     for (Work& work : works_)
       if (!work.Dropped()) Finish(work);
     return std::move(result_);
@@ -223,20 +254,54 @@ class Measurement {
 
   double CommonGreyNoise() const {
     std::vector<double> noises;
-    for (const Work& work : works_)
-      if (!work.Dropped()) noises.push_back(GreyNoise(work.band));
-    if (noises.empty()) return 0;
+    for (const Work& work : works_) {
+      const double noise = work.Dropped() ? 0 : GreyNoise(work.band);
+      if (noise > 0) noises.push_back(noise);
+    }
+    if (noises.empty()) return kLeastGreyNoise;
     return std::max(MedianOf(std::move(noises)), kLeastGreyNoise);
   }
 
-  void FitFirst(double blur_px, Work& work) const {
+  // As if nothing were shaded, which finds the place from afar.
+  void FitFirst(Work& work) const {
     if (work.Dropped()) return;
     work.fit_options.half_width_px = std::max(work.predicted.half_width_px, 2.0);
     work.fit_options.grey_noise = result_.grey_noise;
     work.fit_options.outside_px = kOutside_px;
     work.fit_options.inside_px = std::min(kInside_px, 0.6 * work.fit_options.half_width_px);
-    FitAt(blur_px, work);
+    FlattenBy(SoftStep(kGrid), work);
+    work.fit_options.blur_px = options_.blur_px.value_or(kFirstBlur_px);
+    work.fit = FitProfile(work.profile, ShadingModel::kFlat, 0, work.fit_options);
+    if (!work.fit) work.fit = FitProfile(work.profile, ShadingModel::kAngular, 0, work.fit_options);
     if (!work.fit) work.result->left_out = kNoEdge;
+  }
+
+  // Each edge's model at the blur, its levels flattened as that has them.
+  void ChooseModels(double blur) {
+    ForEachFit([&](Work& work) {
+      FitAt(blur, work);
+      if (!work.fit) return;
+      FlattenBy(ShapeOf(*work.fit, work.fit_options, kGrid), work);
+    });
+  }
+
+  // A band that lies askew to its edge looks blurred, and its shading is not that of the distance from the
+  // edge. Lays it along the line through the places of its two halves; true where that took a move.
+  bool LayAlongEdge(const LegEdgeOptions& options, Work& work) const {
+    const size_t middle = work.stretches.size() / 2;
+    if (middle == 0) return false;
+    const auto a = PlaceOf(0, middle, work), b = PlaceOf(middle, work.stretches.size(), work);
+    if (!a || !b) return false;
+    const double slope_px = (b->place_px - a->place_px) / (b->share - a->share);
+    const auto at = [&](double share) { return a->place_px + slope_px * (share - a->share); };
+    const double off_px =
+        std::max(std::abs(at(work.band.cells.front().share)), std::abs(at(work.band.cells.back().share)));
+    if (off_px < kOffEdge_px || off_px > kAbsurdlyOff_px) return false;
+    ShiftEnds(camera_, *work.leg, -at(0), -at(1), work.predicted);
+    CollectProfile(image_, options, work);
+    FlattenBy(work.shape, work);
+    work.fit->place_px = 0;
+    return true;
   }
 
   template <typename F>
@@ -245,14 +310,30 @@ class Measurement {
       if (!work.Dropped() && work.fit) refit(work);
   }
 
-  // Improves the blur, the edges fitted again each time, by ever smaller steps.
-  double Settle(double blur, double step, void (*refit)(double, Work&)) {
-    ForEachFit([&](Work& work) { refit(blur, work); });
-    for (int round = 0; round < kMostBlurRounds && step > kLastBlurStep_px; ++round) {
+  void Recentre(double blur) {
+    ForEachFit([&](Work& work) {
+      for (int move = 0; move < kMostMoves && work.fit && LayAlongEdge(options_, work); ++move)
+        FitAt(blur, work);
+      if (work.fit) FlattenBy(ShapeOf(*work.fit, work.fit_options, kGrid), work);
+    });
+  }
+
+  // The blur, one for all edges, at which they fit best with the models that they have: Gauss-Newton in which
+  // each edge's place and coefficients follow the blur. Leaves the fits there.
+  double SettleBlur(double blur) {
+    for (int round = 0; round < kMostBlurSteps; ++round) {
+      BlurEvidence all;
+      ForEachFit([&](Work& work) {
+        const BlurEvidence evidence = EvidenceOnBlur(work.profile, *work.fit, work.fit_options);
+        all.information += evidence.information;
+        all.moment += evidence.moment;
+      });
+      if (!(all.information > 0)) return blur;
+      const double step = std::clamp(all.moment / all.information, -kLongestBlurStep_px, kLongestBlurStep_px);
       const double before = blur;
-      blur = ImprovedBlur(blur, step, works_);
-      ForEachFit([&](Work& work) { refit(blur, work); });
-      if (std::abs(blur - before) < step / 2) step *= 0.6;
+      blur = std::clamp(blur + step, kLeastBlur_px, kMostBlur_px);
+      ForEachFit([&](Work& work) { RefitAt(blur, work); });
+      if (std::abs(blur - before) < kSteadyBlur_px) break;
     }
     return blur;
   }
@@ -260,26 +341,25 @@ class Measurement {
   // In turn with the edges' models, for at a wrong blur a plain edge looks shaded; as if all were plain to
   // begin with, for a shaded edge's model would follow a wrong blur.
   double FindBlur() {
-    if (!AnyLeft()) return 0;
-    const double blur = Settle(kFirstBlur_px, kPlainBlurStep_px, FitAsPlain);
-    return Settle(blur, kFirstBlurStep_px, FitAt);
+    if (options_.blur_px) {
+      ChooseModels(*options_.blur_px);
+      Recentre(*options_.blur_px);
+      ForEachFit([&](Work& work) { RefitAt(*options_.blur_px, work); });
+      return *options_.blur_px;
+    }
+    double blur = SettleBlur(kFirstBlur_px);
+    for (int round = 0; round < kMostModelRounds; ++round) {
+      ChooseModels(blur);
+      if (round == 0) Recentre(blur);
+      const double before = blur;
+      blur = SettleBlur(blur);
+      if (std::abs(blur - before) < kSameBlur_px) break;
+    }
+    return blur;
   }
 
   bool AnyLeft() const {
     return std::any_of(works_.begin(), works_.end(), [](const Work& work) { return !work.Dropped(); });
-  }
-
-  // A band that lies askew to its edge would look blurred: lays it along the line through the first samples.
-  void Recentre(Work& work) const {
-    if (work.Dropped()) return;
-    Sample(options_, 2 * options_.sample_length_px, work);
-    FitLine(camera_, work);
-    MoveTo(camera_, *work.leg, work.result->normal, work.predicted);
-    // The samples moved the curve onto the edge.
-    work.fit->place_px = 0;
-    CollectProfile(image_, 0, LevelShape(*work.fit, work.fit_options), work);
-    work.fit = FitProfile(work.profile, work.fit->model, 0, work.fit_options);
-    if (!work.fit) work.result->left_out = kNoEdge;
   }
 
   void Finish(Work& work) const {
@@ -287,7 +367,7 @@ class Measurement {
       work.result->left_out = kNoEdge;
       return;
     }
-    Sample(options_, options_.sample_length_px, work);
+    Sample(work);
     FitLine(camera_, work);
     Judge(options_, work);
   }

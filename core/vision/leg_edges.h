@@ -17,8 +17,8 @@ struct LegEdgeOptions {
   VisibilityOptions visibility;
   std::optional<LegLockOptions> lock = LegLockOptions{};  // none: the prediction is good to search_px
   double search_px = 5;  // how far from the (locked) prediction an edge is looked for
-  // Places to half a pixel only, and edges that bend from the prediction by up to rough_bend_px (a quarter of
-  // that in the middle): what finds the camera while its lens is unknown.
+  // Rough places only, to a few tenths of a pixel, and edges that bend from the prediction by up to
+  // rough_bend_px (a quarter of that in the middle): what finds the camera while its lens is unknown.
   bool rough_only = false;
   double rough_bend_px = 0;
   double least_length_px = 40;           // of the visible stretch

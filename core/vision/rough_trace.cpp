@@ -1,5 +1,7 @@
 #include "core/vision/rough_trace.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/vision/edge_band.h"
@@ -17,24 +19,43 @@ struct RoughPlace {
   double share = 0;
   Eigen::Vector2d centre_px, normal_px;  // of the predicted curve there
   double outward_px = 0;
-  double step = 0;  // grey levels over two bins, signed: positive where the leg is brighter
+  double step = 0;    // grey levels, signed: positive where the leg is brighter
+  double weight = 0;  // its square root
 };
 
-std::optional<RoughPlace> StrongestStep(const EdgeProfile& profile, const BandCell& middle) {
-  RoughPlace best{middle.share, middle.centre_px, middle.normal_px, 0, 0};
-  for (size_t i = 2; i + 2 < profile.size(); ++i) {
-    if (profile[i - 2].count == 0 || profile[i - 1].count == 0 || profile[i].count == 0 ||
-        profile[i + 1].count == 0)
-      continue;
-    const double step = (profile[i].brightness + profile[i + 1].brightness - profile[i - 1].brightness -
-                         profile[i - 2].brightness) /
-                        2;
-    if (std::abs(step) <= std::abs(best.step)) continue;
-    best.step = step;
-    best.outward_px = -(profile[i].inside_px + profile[i - 1].inside_px) / 2;
+// A step between the pixels of the two bins before bin i and those of the two from it on. A pair of bins is a
+// pixel wide: it holds pixels also where an edge runs along the image's rows or columns and every second bin
+// is empty.
+struct Step {
+  double inside_px = 0;  // between the pixels' mean distances
+  double grey = 0;       // by which the inner ones are brighter
+};
+std::optional<Step> StepAt(const BandBins& bins, size_t i) {
+  const auto before = bins[i - 2].sums + bins[i - 1].sums, after = bins[i].sums + bins[i + 1].sums;
+  const float count_before = bins[i - 2].count + bins[i - 1].count,
+              count_after = bins[i].count + bins[i + 1].count;
+  if (count_before == 0 || count_after == 0) return std::nullopt;
+  return Step{(before[0] / count_before + after[0] / count_after) / 2,
+              after[1] / count_after - before[1] / count_before};
+}
+
+// The strongest step that is no weaker than those a pixel to either side (shading grows steeper towards the
+// window's end without an edge there), moved by the parabola through the three.
+std::optional<RoughPlace> StrongestStep(const BandBins& bins, const BandCell& middle) {
+  std::vector<std::optional<Step>> steps(bins.size());
+  for (size_t i = 2; i + 2 < bins.size(); ++i) steps[i] = StepAt(bins, i);
+  std::optional<RoughPlace> best;
+  for (size_t i = 4; i + 4 < bins.size(); ++i) {
+    if (!steps[i] || !steps[i - 2] || !steps[i + 2]) continue;
+    const double before = std::abs(steps[i - 2]->grey), peak = std::abs(steps[i]->grey),
+                 after = std::abs(steps[i + 2]->grey);
+    if (peak < std::max(before, after) || (best && peak <= std::abs(best->step))) continue;
+    const double curvature = 2 * peak - before - after;
+    const double moved_px = curvature > 0 ? (after - before) / (2 * curvature) : 0;
+    best = RoughPlace{middle.share,   middle.centre_px, middle.normal_px, -(steps[i]->inside_px + moved_px),
+                      steps[i]->grey, std::sqrt(peak)};
   }
-  if (best.step == 0) return std::nullopt;
-  return best;
+  return best && best->step != 0 ? best : std::nullopt;
 }
 
 // outward_px = at_a + slope * share + bend * share * (share - 1): the prediction's error along the leg.
@@ -68,13 +89,31 @@ RoughCurve Consensus(const std::vector<RoughPlace>& places, double largest_bend_
         RoughCurve curve = CurveThrough(a, b, bend);
         for (const RoughPlace& place : places) {
           if (!curve.Agrees(place)) continue;
-          curve.support += std::sqrt(std::abs(place.step));
+          curve.support += place.weight;
           ++curve.count;
         }
         if (curve.support > best.support) best = curve;
+        if (best.count == static_cast<int>(places.size())) return best;
       }
     }
   return best;
+}
+
+// The curve of the same bend that lies closest to the places that agree with it, a strong step counting for
+// more.
+RoughCurve Settled(RoughCurve curve, const std::vector<RoughPlace>& places) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  for (const RoughPlace& place : places) {
+    if (!curve.Agrees(place)) continue;
+    const Eigen::Vector2d row(1, place.share);
+    information += std::abs(place.step) * row * row.transpose();
+    moment += std::abs(place.step) * row * (place.outward_px - curve.At(place.share));
+  }
+  const Eigen::Vector2d change = information.inverse() * moment;
+  curve.at_a_px += change[0];
+  curve.slope_px += change[1];
+  return curve;
 }
 
 }  // namespace
@@ -83,15 +122,17 @@ std::optional<RoughTrace> TraceRoughly(const GrayImage& image, const PredictedEd
                                        const RoughTraceOptions& options) {
   const double reach = options.search_px + 2;
   const EdgeBand band = CollectBand(image, edge.points, reach, reach);
+  const BinGrid grid{reach, reach, kBin_px};
   std::vector<RoughPlace> places;
   for (const auto& [first, last] : Stretches(band, kStretch_px, options.step_px)) {
-    const EdgeProfile profile = BinProfile(band, first, last, reach, reach, kBin_px);
-    if (const auto place = StrongestStep(profile, band.cells[(first + last) / 2])) places.push_back(*place);
+    const BandBins bins = BinBand(band, first, last, grid);
+    if (const auto place = StrongestStep(bins, band.cells[(first + last) / 2])) places.push_back(*place);
   }
   const RoughCurve curve = Consensus(places, options.bend_px);
   if (curve.count < kFewestPlaces || curve.count < kLeastShare * static_cast<double>(places.size()))
     return std::nullopt;
-  RoughTrace trace{curve.At(0), curve.At(1), {}};
+  const RoughCurve settled = Settled(curve, places);
+  RoughTrace trace{settled.At(0), settled.At(1), {}};
   for (const RoughPlace& place : places)
     if (curve.Agrees(place))
       trace.samples.push_back(

@@ -1,5 +1,5 @@
-// Where an edge runs to half a pixel: the strongest step of each short stretch, and the curve on which most
-// of them lie.
+// Where an edge runs to a tenth or two of a pixel: the strongest step of each short stretch, and the curve on
+// which most of them lie.
 #pragma once
 
 #include <optional>

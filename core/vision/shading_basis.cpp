@@ -14,7 +14,9 @@ constexpr double kPixelVariance = 1.0 / 12;  // of a pixel's own extent
 }  // namespace
 
 ShadingBasis::ShadingBasis(ShadingModel model, double blur_px, double half_width_px, double inside_px)
-    : model_(model), s_(std::sqrt(blur_px * blur_px + kPixelVariance)), w_(half_width_px) {
+    : model_(model), blur_px_(blur_px), s_(std::sqrt(blur_px * blur_px + kPixelVariance)), w_(half_width_px) {
+  const double ratio = s_ / w_;
+  angle_ = std::sqrt(2 * ratio) * Eigen::Array4d(0, 1, ratio / 12, 3 * ratio * ratio / 160);
   size_ = model == ShadingModel::kFlat ? 2 : kFirstKink;
   if (model != ShadingModel::kKinked) return;
   for (double psi = kFirstKink_rad; size_ < kMaxColumns; psi += kKinkStep_rad) {
@@ -27,15 +29,19 @@ ShadingBasis::ShadingBasis(ShadingModel model, double blur_px, double half_width
 
 void ShadingBasis::Evaluate(double x, Columns& value, Columns& slope) const {
   const double z = x / s_;
-  const BlurredPower step = BlurredStep(z);
-  value[0] = 1 - step.value;
-  slope[0] = -step.derivative / s_;
   if (model_ == ShadingModel::kFlat) {
+    const BlurredPower step = BlurredStepAt(z);
+    value[0] = 1 - step.value;
     value[1] = step.value;
-    slope[1] = -slope[0];
+    slope[1] = step.derivative / s_;
+    slope[0] = -slope[1];
     return;
   }
-  const BlurredPower ramp = BlurredRamp(z);
+  const BlurredPowers powers = BlurredPowersAt(z);
+  const BlurredPower step{powers.value[0], powers.derivative[0]};
+  const BlurredPower ramp = BlurredRampAt(z, step);
+  value[0] = 1 - step.value;
+  slope[0] = -step.derivative / s_;
   value[kOutside] = x - s_ * ramp.value;  // x for x < 0, blurred
   slope[kOutside] = 1 - ramp.derivative;
   // 1 - cos psi = x / w
@@ -43,24 +49,29 @@ void ShadingBasis::Evaluate(double x, Columns& value, Columns& slope) const {
   slope[kAmbient] = ramp.derivative / w_;
   value[kLevel] = step.value - value[kAmbient];
   slope[kLevel] = -slope[0] - slope[kAmbient];
-  EvaluateAngle(z, value[kAngle], slope[kAngle]);
+  value[kAngle] = (angle_ * powers.value).sum();
+  slope[kAngle] = (angle_ * powers.derivative).sum() / s_;
   for (size_t k = 0; k < kinks_.size(); ++k) {
-    const BlurredPower kink = BlurredRamp((x - kinks_[k].place_px) / s_);
+    const BlurredPower kink = BlurredRampAt((x - kinks_[k].place_px) / s_);
     value[kFirstKink + static_cast<Eigen::Index>(k)] = s_ * kink.value * kinks_[k].rad_per_px;
     slope[kFirstKink + static_cast<Eigen::Index>(k)] = kink.derivative * kinks_[k].rad_per_px;
   }
 }
 
-// psi = acos(1 - x/w) = sqrt(2 x/w) (1 + x/(12 w) + 3 x^2/(160 w^2) + …), blurred term by term.
-void ShadingBasis::EvaluateAngle(double z, double& value, double& slope) const {
-  const double ratio = s_ / w_;
-  const double factor = std::sqrt(2 * ratio);
-  const BlurredPower a = BlurredHalfPower(HalfPower::kOneHalf, z);
-  const BlurredPower b = BlurredHalfPower(HalfPower::kThreeHalves, z);
-  const BlurredPower c = BlurredHalfPower(HalfPower::kFiveHalves, z);
-  const double of_b = ratio / 12, of_c = 3 * ratio * ratio / 160;
-  value = factor * (a.value + of_b * b.value + of_c * c.value);
-  slope = factor / s_ * (a.derivative + of_b * b.derivative + of_c * c.derivative);
+double ShadingBasis::SlopeByBlur(double x, const Eigen::Ref<const Eigen::VectorXd>& coefficients) const {
+  const Eigen::Array4d curvatures = BlurredCurvaturesAt(x / s_) / (s_ * s_);
+  const double step = curvatures[0];
+  if (model_ == ShadingModel::kFlat) return blur_px_ * (coefficients[1] - coefficients[0]) * step;
+  const double ramp = BlurredStepAt(x / s_).derivative / s_;  // of s ramp(x / s)
+  double curvature = (coefficients[kLevel] - coefficients[0]) * step - coefficients[kOutside] * ramp +
+                     (coefficients[kAmbient] - coefficients[kLevel]) * ramp / w_ +
+                     coefficients[kAngle] * (angle_ * curvatures).sum();
+  for (size_t k = 0; k < kinks_.size(); ++k) {
+    const double z = (x - kinks_[k].place_px) / s_;
+    curvature += coefficients[kFirstKink + static_cast<Eigen::Index>(k)] * kinks_[k].rad_per_px *
+                 BlurredStepAt(z).derivative / s_;
+  }
+  return blur_px_ * curvature;
 }
 
 }  // namespace legible

@@ -36,16 +36,21 @@ class ShadingBasis {
   // The first size() entries: the functions at x and their slopes by x, per px.
   void Evaluate(double x, Columns& value, Columns& slope) const;
 
- private:
-  void EvaluateAngle(double z, double& value, double& slope) const;
+  // How the brightness at x changes with blur_px, per px, for size() coefficients: a Gaussian of variance v
+  // obeys d/dv = 1/2 d^2/dx^2.
+  double SlopeByBlur(double x, const Eigen::Ref<const Eigen::VectorXd>& coefficients) const;
 
+ private:
   struct Kink {
     double place_px;    // inside the edge
     double rad_per_px;  // of the surface angle there
   };
 
   ShadingModel model_;
-  double s_, w_;  // whole blur, half width
+  double blur_px_, s_, w_;  // of the image, whole blur, half width
+  // psi = acos(1 - x/w) = sqrt(2 x/w) (1 + x/(12 w) + 3 x^2/(160 w^2) + …): factors of the blurred powers of
+  // x/s.
+  Eigen::Array4d angle_;
   int size_;
   std::vector<Kink> kinks_;
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr double kBackground = 60, kContrast = 120, kNoise = 2, kBlur_px = 1, kLength_px = 400;
 constexpr double kPredictedOff_px = 0.3;
 constexpr int kDraws = 400, kSide_px = 500;
-constexpr double kOutside_px = 8, kInside_px = 6, kStep_px = 6, kBin_px = 0.125, kFineBins_px = 2.5;
+constexpr double kOutside_px = 8, kInside_px = 6, kStep_px = 6, kBin_px = 0.25, kFineBins_px = 2.5;
 
 // (noise / contrast) sqrt(2 s sqrt(pi)) / sqrt(L), s the blur of the image.
 double Bound_px() {
@@ -73,10 +73,11 @@ Prediction Predict(const Edge& edge, std::mt19937_64& generator) {
 // What MeasureLegEdges does with a traced edge, once, in a wider window: offset of the found edge outward
 // from the prediction's middle.
 double OffsetByBand(const GrayImage& image, const Prediction& prediction) {
-  EdgeBand band = CollectBand(image, prediction.points, kOutside_px + 1, kInside_px + 1);
-  Flatten(band, 0, LevelShape());
-  const EdgeProfile profile = CoarserFarFromTheEdge(
-      BinProfile(band, 0, band.cells.size(), kOutside_px + 1, kInside_px + 1, kBin_px), kFineBins_px);
+  const BinGrid grid{kOutside_px + 1, kInside_px + 1, kBin_px};
+  EdgeBand band = CollectBand(image, prediction.points, grid.outside_px, grid.inside_px);
+  MeasureLevels(band);
+  const EdgeProfile profile =
+      FlatProfile(BinBand(band, 0, band.cells.size(), grid), SoftStep(grid), grid, kFineBins_px);
   ProfileFitOptions options;
   options.blur_px =
       std::sqrt(kBlur_px * kBlur_px - 1.0 / 12);  // the image's whole blur holds the pixels' own

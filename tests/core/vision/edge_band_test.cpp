@@ -101,97 +101,133 @@ TEST(EdgeBand, StaysInTheImage) {
   edge.start_px = {-20, -10};
   const GrayImage image = Paint(edge, [](double, double) { return 100; });
   const EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  EXPECT_FALSE(band.pixels.empty());
+  size_t expected = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const Eigen::Vector2d from_start = Eigen::Vector2d(x, y) - edge.start_px;
+      const double along = edge.along_px.dot(from_start), inside = -edge.normal_px.dot(from_start);
+      expected +=
+          along >= 0 && along <= edge.length_px && inside <= kInside_px && inside >= -kOutside_px ? 1 : 0;
+    }
+  EXPECT_GT(expected, 100);
+  EXPECT_EQ(band.pixels.size(), expected);
 }
 
-// Levels of each cell: the mean 2 to 5 px outside, and 2 to 5 px inside.
-std::pair<double, double> LevelsOf(const EdgeBand& band, const BandCell& cell) {
+constexpr BinGrid kGrid{kOutside_px, kInside_px, 0.125};
+
+EdgeProfile FlatProfileOf(const EdgeBand& band, size_t first, size_t last) {
+  return FlatProfile(BinBand(band, first, last, kGrid), SoftStep(kGrid), kGrid, 2.5);
+}
+
+// Mean brightness of a profile 2 to 5 px outside, and 2 to 5 px inside.
+std::pair<double, double> LevelsOf(const EdgeProfile& profile) {
   double outside = 0, outside_count = 0, inside = 0, inside_count = 0;
-  for (size_t i = cell.first; i < cell.last; ++i) {
-    const BandPixel& pixel = band.pixels[i];
-    if (pixel.inside_px < -2 && pixel.inside_px > -5) {
-      outside += pixel.brightness;
-      ++outside_count;
-    } else if (pixel.inside_px > 2 && pixel.inside_px < 5) {
-      inside += pixel.brightness;
-      ++inside_count;
+  for (const ProfileBin& bin : profile) {
+    if (bin.inside_px < -2 && bin.inside_px > -5) {
+      outside += bin.count * bin.brightness;
+      outside_count += bin.count;
+    } else if (bin.inside_px > 2 && bin.inside_px < 5) {
+      inside += bin.count * bin.brightness;
+      inside_count += bin.count;
     }
   }
   return {outside / outside_count, inside / inside_count};
 }
 
-TEST(Flatten, TakesOutALinearRampAlongTheEdge) {
+TEST(FlatProfile, HasTheSameLevelsAllAlongARamp) {
   const StraightEdge edge = EdgeAt(0.4);
   const GrayImage image = Paint(
       edge, [](double along, double inside) { return inside > 0 ? 140 + 0.4 * along : 30 + 0.2 * along; });
   EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  Flatten(band, 0, LevelShape());
+  MeasureLevels(band);
   ASSERT_EQ(band.cells.size(), 20);
   // The first and the last cell are averaged with one neighbour only: a third of a cell's rise remains.
   for (size_t i = 1; i + 1 < band.cells.size(); ++i) {
-    const auto [outside, inside] = LevelsOf(band, band.cells[i]);
+    const auto [outside, inside] = LevelsOf(FlatProfileOf(band, i, i + 1));
     EXPECT_NEAR(outside, 30 + 0.2 * 60, 1) << i;
     EXPECT_NEAR(inside, 140 + 0.4 * 60, 1) << i;
   }
 }
 
-TEST(Flatten, DropsCellsThatSomethingCovers) {
+TEST(MeasureLevels, DropsCellsThatSomethingCovers) {
   const StraightEdge edge = EdgeAt(0.4);
   const GrayImage image = Paint(edge, [](double along, double inside) {
     return along > 42 && along < 60 ? 100.0 : inside > 0 ? 160.0 : 40.0;
   });
   EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  Flatten(band, 0, LevelShape());
+  MeasureLevels(band);
   // Three cells are covered; those beside them may go too, for the jump to a neighbour is not texture.
   EXPECT_GE(band.cells.size(), 15);
   EXPECT_LE(band.cells.size(), 17);
   for (const BandCell& cell : band.cells) EXPECT_TRUE(cell.share < 0.35 || cell.share > 0.5) << cell.share;
 }
 
-TEST(BinProfile, HoldsEveryPixelOfItsCells) {
+TEST(BinBand, HoldsEveryPixelOfItsCells) {
   const StraightEdge edge = EdgeAt(0.4);
   const GrayImage image = Paint(edge, [](double, double inside) { return inside > 0 ? 160 : 40; });
   const EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
-  const EdgeProfile profile = BinProfile(band, 0, band.cells.size(), kOutside_px, kInside_px, 0.125);
+  const BandBins bins = BinBand(band, 0, band.cells.size(), kGrid);
   double count = 0;
-  for (const ProfileBin& bin : profile) {
-    count += bin.count;
-    if (bin.count > 0) {
-      EXPECT_EQ(bin.brightness, bin.inside_px > 0 ? 160 : 40);
-    }
+  for (size_t i = 0; i < bins.size(); ++i) {
+    count += bins[i].count;
+    if (bins[i].count == 0) continue;
+    EXPECT_EQ(bins[i].MeanBrightness(), kGrid.Middle(i) > 0 ? 160 : 40);
+    EXPECT_NEAR(bins[i].sums[0] / bins[i].count, kGrid.Middle(i), kGrid.width_px / 2 + 1e-5);
   }
   EXPECT_EQ(count, static_cast<double>(band.pixels.size()));
 }
 
-TEST(CoarserFarFromTheEdge, KeepsPixelsAndMeansAndTheBinsNearTheEdge) {
-  EdgeProfile profile;
-  for (int i = 0; i < 64; ++i) profile.push_back({-4 + (i + 0.5) / 8, 10.0 * i, 1.0 + i % 3});
-  const EdgeProfile coarser = CoarserFarFromTheEdge(profile, 2);
-  EXPECT_LT(coarser.size(), profile.size() * 3 / 4);
-  const auto moments = [](const EdgeProfile& bins) {
+TEST(BinBand, OfTheWholeIsTheSumOfItsStretches) {
+  const StraightEdge edge = EdgeAt(0.4);
+  std::mt19937_64 generator = TestGenerator();
+  const GrayImage image = Paint(edge, [&](double, double) { return Uniform(generator, 0, 255); });
+  const EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
+  BandBins sum = BinBand(band, 0, 7, kGrid);
+  Add(BinBand(band, 7, band.cells.size(), kGrid), sum);
+  const BandBins whole = BinBand(band, 0, band.cells.size(), kGrid);
+  for (size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(sum[i].count, whole[i].count);
+    EXPECT_LT((sum[i].sums - whole[i].sums).abs().maxCoeff(), 1e-5 * (1 + whole[i].sums.abs().maxCoeff()));
+  }
+}
+
+TEST(FlatProfile, IsCoarserFarFromTheEdgeAndKeepsPixelsAndMeans) {
+  const StraightEdge edge = EdgeAt(0.4);
+  std::mt19937_64 generator = TestGenerator();
+  const GrayImage image = Paint(edge, [&](double, double) { return Uniform(generator, 0, 255); });
+  const EdgeBand band =
+      CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);  // levels unmeasured: 0
+  const BandBins bins = BinBand(band, 0, band.cells.size(), kGrid);
+  const EdgeProfile fine = FlatProfile(bins, SoftStep(kGrid), kGrid, 100),
+                    coarser = FlatProfile(bins, SoftStep(kGrid), kGrid, 2);
+  EXPECT_EQ(fine.size(), bins.size());
+  EXPECT_LT(coarser.size(), fine.size() * 3 / 4);
+  const auto moments = [](const EdgeProfile& profile) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const ProfileBin& bin : bins) sum += bin.count * Eigen::Vector3d(1, bin.inside_px, bin.brightness);
+    for (const ProfileBin& bin : profile)
+      sum += bin.count * Eigen::Vector3d(1, bin.inside_px, bin.brightness);
     return sum;
   };
-  EXPECT_LT((moments(coarser) - moments(profile)).norm(), 1e-9 * moments(profile).norm());
-  const auto near = [](const EdgeProfile& bins) {
-    return std::count_if(bins.begin(), bins.end(),
+  EXPECT_LT((moments(coarser) - moments(fine)).norm(), 1e-9 * moments(fine).norm());
+  const auto near = [](const EdgeProfile& profile) {
+    return std::count_if(profile.begin(), profile.end(),
                          [](const ProfileBin& b) { return std::abs(b.inside_px) < 2; });
   };
-  EXPECT_EQ(near(coarser), near(profile));
+  EXPECT_EQ(near(coarser), near(fine));
 }
 
 // A leg whose light fades along it: what is brightest across it changes most.
-TEST(LevelShape, FollowsTheBrightnessAcrossTheEdge) {
+TEST(ShapeOf, FollowsTheBrightnessAcrossTheEdge) {
   ProfileFit fit;
   fit.model = ShadingModel::kFlat;
   fit.coefficients = Eigen::Vector2d(40, 160);
   ProfileFitOptions options;
-  const LevelShape shape(fit, options);
-  for (const float x : {-4.0f, -0.3f, 0.0f, 0.4f, 3.0f}) {
+  const LevelShape shape = ShapeOf(fit, options, kGrid);
+  for (size_t i = 0; i < shape.size(); ++i) {
+    const double x = kGrid.Middle(i);
     const double leg = std::erfc(-x / std::sqrt(2 * (options.blur_px * options.blur_px + 1.0 / 12))) / 2;
-    EXPECT_NEAR(shape.At(x).leg, leg, 0.03) << x;  // half a step of the table
-    EXPECT_NEAR(shape.At(x).background, 1 - leg, 0.03) << x;
+    EXPECT_NEAR(shape[i].leg, leg, 0.02) << x;
+    EXPECT_NEAR(shape[i].background, 1 - leg, 0.02) << x;
   }
 }
 
@@ -204,7 +240,8 @@ TEST(GreyNoise, IsTheScatterOfTheBackground) {
     const GrayImage image = Paint(edge, [&](double along, double inside) {
       return (inside > 0 ? 160 : 40) + 0.2 * along + normal(generator);
     });
-    const EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
+    EdgeBand band = CollectBand(image, PointsOf(edge, 20), kOutside_px, kInside_px);
+    MeasureLevels(band);
     variance += std::pow(GreyNoise(band), 2) / 20;
   }
   EXPECT_NEAR(std::sqrt(variance), std::hypot(3, std::sqrt(1.0 / 12)), 0.15);

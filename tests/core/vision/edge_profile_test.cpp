@@ -156,25 +156,37 @@ TEST_P(MattCylinderUnderLight, LittleOrMuchLightFromEverywhereMovesTheEdgeByLess
   }
 }
 
-TEST(SquaresAtBlur, AreThoseOfAFitThere) {
-  const EdgeProfile profile = DrawProfile(Step(0.1, 0.8), 50, 2, nullptr);
-  const auto fit = FitProfile(profile, ShadingModel::kFlat, 0, Options(0.8, 14, 2));
-  ASSERT_TRUE(fit);
-  for (const double blur_px : {0.7, 0.76, 0.84, 0.9}) {
-    const auto there = FitProfile(profile, ShadingModel::kFlat, 0, Options(blur_px, 14, 2));
-    ASSERT_TRUE(there);
-    const double squares = SquaresAtBlur(profile, *fit, Options(blur_px, 14, 2));
-    EXPECT_NEAR(squares, there->squares, 0.01 * there->squares) << blur_px;
+// Refitted at each blur, from the fit.
+double SquaresAt(double blur_px, const EdgeProfile& profile, const ProfileFit& fit) {
+  const auto there = Refit(profile, fit, Options(blur_px, 14, 2));
+  return there ? there->squares : std::nan("");
+}
+
+TEST(EvidenceOnBlur, IsHowTheSquaresOfRefitsFall) {
+  for (const ShadingModel model : {ShadingModel::kFlat, ShadingModel::kAngular, ShadingModel::kKinked}) {
+    const EdgeProfile profile = DrawProfile(MattCylinder(0.1, 14, 1, 0.8), 50, 2, nullptr);
+    const auto first = FitProfile(profile, model, 0, Options(0.74, 14, 2));
+    ASSERT_TRUE(first);
+    const auto fit = Refit(profile, *first, Options(0.74, 14, 2));
+    ASSERT_TRUE(fit);
+    const BlurEvidence evidence = EvidenceOnBlur(profile, *fit, Options(0.74, 14, 2));
+    const double misfit = std::max(fit->chi2_per_bin, 1.0);
+    const double slope = (SquaresAt(0.75, profile, *fit) - SquaresAt(0.73, profile, *fit)) / 0.02;
+    EXPECT_NEAR(-2 * evidence.moment * misfit, slope, 0.03 * std::abs(slope)) << static_cast<int>(model);
   }
 }
 
-TEST(SquaresAtBlur, AreLeastNearTheBlurOfALitLeg) {
-  const EdgeProfile profile = DrawProfile(MattCylinder(0.1, 14, 1, 0.8), 50, 2, nullptr);
-  const auto fit = FitProfile(profile, ShadingModel::kKinked, 0, Options(0.8, 14, 2));
-  ASSERT_TRUE(fit);
-  const auto squares = [&](double blur_px) { return SquaresAtBlur(profile, *fit, Options(blur_px, 14, 2)); };
-  EXPECT_LT(squares(0.8), squares(0.7));
-  EXPECT_LT(squares(0.8), squares(0.9));
+TEST(EvidenceOnBlur, LeadsToTheBlurOfAStep) {
+  const EdgeProfile profile = DrawProfile(Step(0.1, 0.8), 50, 2, nullptr);
+  double blur_px = 0.65;
+  auto fit = FitProfile(profile, ShadingModel::kFlat, 0, Options(blur_px, 14, 2));
+  for (int step = 0; step < 4 && fit; ++step) {
+    const BlurEvidence evidence = EvidenceOnBlur(profile, *fit, Options(blur_px, 14, 2));
+    EXPECT_GT(evidence.information, 0);
+    blur_px += evidence.moment / evidence.information;
+    fit = Refit(profile, *fit, Options(blur_px, 14, 2));
+  }
+  EXPECT_NEAR(blur_px, 0.8, 0.005);
 }
 
 TEST(PredictParts, AddUpToTheProfile) {

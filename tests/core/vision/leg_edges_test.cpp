@@ -112,20 +112,59 @@ TEST_P(LegEdgesThroughLens, LocksOnFromFortyPixelsAway) {
     }
 }
 
+// From the side, and from behind, which leaves a bright rim whose inner side is an edge as well.
 TEST_P(LegEdgesThroughLens, ShadingMovesTheEdgesOfMattLegsByLessThanATenth) {
+  std::mt19937_64 generator = TestGenerator();
+  const Scene scene(GetParam());
+  for (const LambertLight& light : {LambertLight{40, 170, Eigen::Vector3d(-0.5, -0.5, -0.7).normalized()},
+                                    LambertLight{30, 170, Eigen::Vector3d(-0.9, -0.3, 0.3).normalized()}}) {
+    RenderOptions options;
+    options.background = 10;
+    options.light = light;
+    const CleanImage clean = RenderLegs(scene.Legs(), scene.camera, options);
+    for (int draw = 0; draw < 4; ++draw) {
+      Vector6d displacement;
+      displacement << 0.001 * UniformVector(generator, -1, 1), 0.003 * UniformVector(generator, -1, 1);
+      const LegEdges found = MeasureLegEdges(WithNoise(clean, kNoise, generator),
+                                             scene.LegsDisplaced(displacement), scene.camera, WithoutLock());
+      EXPECT_GE(MeasuredCount(found), 7);
+      for (const LegEdge& edge : found.edges) {
+        if (!edge.left_out.empty()) continue;
+        EXPECT_LT(std::abs(ErrorsOf(edge, scene.Legs(), scene.camera).mean_px), 0.1)
+            << "leg " << edge.leg + 1 << " edge " << edge.edge + 1;
+      }
+    }
+  }
+}
+
+// Light from behind leaves a bright rim at some edges, whose inner side is an edge as well.
+TEST_P(LegEdgesThroughLens, TheirPlacesDoNotDependOnWhereTheyWerePredicted) {
   std::mt19937_64 generator = TestGenerator();
   const Scene scene(GetParam());
   RenderOptions options;
   options.background = 10;
-  options.light = LambertLight{40, 170, Eigen::Vector3d(-0.5, -0.5, -0.7).normalized()};
+  options.light = LambertLight{30, 170, Eigen::Vector3d(-0.9, -0.3, 0.3).normalized()};
   const GrayImage image = WithNoise(RenderLegs(scene.Legs(), scene.camera, options), kNoise, generator);
-  const LegEdges found = MeasureLegEdges(image, scene.Legs(), scene.camera, WithoutLock());
-  EXPECT_GE(MeasuredCount(found), 7);
-  for (const LegEdge& edge : found.edges) {
-    if (!edge.left_out.empty()) continue;
-    EXPECT_LT(std::abs(ErrorsOf(edge, scene.Legs(), scene.camera).mean_px), 0.1)
-        << "leg " << edge.leg + 1 << " edge " << edge.edge + 1;
+  const LegEdges from_truth = MeasureLegEdges(image, scene.Legs(), scene.camera, WithoutLock());
+  int compared = 0;
+  for (int draw = 0; draw < 6; ++draw) {
+    Vector6d displacement;
+    displacement << 0.001 * UniformVector(generator, -1, 1), 0.003 * UniformVector(generator, -1, 1);
+    const LegEdges found =
+        MeasureLegEdges(image, scene.LegsDisplaced(displacement), scene.camera, WithoutLock());
+    for (size_t i = 0; i < found.edges.size(); ++i) {
+      if (!found.edges[i].left_out.empty() || !from_truth.edges[i].left_out.empty()) continue;
+      SCOPED_TRACE("leg " + std::to_string(i / 2 + 1) + " edge " + std::to_string(i % 2 + 1));
+      const double sigma_px = from_truth.edges[i].observation.common_sigma_px;
+      for (const EdgeSample& sample : found.edges[i].observation.samples) {
+        const auto off = DistanceToEdge(ParametersOf(scene.camera), from_truth.edges[i].normal,
+                                        sample.point_px, sample.normal_px);
+        EXPECT_LT(std::abs(off.value().distance_px), std::max(3 * sigma_px, 0.05));
+        ++compared;
+      }
+    }
   }
+  EXPECT_GE(compared, 150);
 }
 
 std::string NameOfLens(const testing::TestParamInfo<bool>& is_distorted) {
@@ -158,6 +197,41 @@ TEST(LegEdges, AMissingLegIsLeftOutWithAReason) {
     for (size_t edge = 0; edge < 2; ++edge)
       EXPECT_NE(found.edges[2 * missing + edge].left_out, "") << missing + 1;
   }
+}
+
+// The image above a row, and another one from it on.
+GrayImage Joined(const GrayImage& above, const GrayImage& below, int row) {
+  GrayImage joined = above;
+  const auto start = static_cast<std::ptrdiff_t>(row) * above.width;
+  std::copy(below.pixels.begin() + start, below.pixels.end(), joined.pixels.begin() + start);
+  return joined;
+}
+
+// Legs bent in the middle.
+TEST(LegEdges, AreNoMoreCertainThanTheirStretchesLieOnOneLine) {
+  std::mt19937_64 generator = TestGenerator();
+  const Scene scene(false);
+  RenderOptions render;
+  render.leg = render.background + 30;  // little contrast: the samples are not certain enough to stand out
+  LegsInCamera bent = scene.Legs();
+  for (LegInCamera& leg : bent) {
+    leg.a_in_camera.x() += 0.003;
+    leg.b_in_camera.x() -= 0.003;
+  }
+  const GrayImage above = WithNoise(RenderLegs(scene.Legs(), scene.camera, render), kNoise, generator);
+  const GrayImage below = WithNoise(RenderLegs(bent, scene.camera, render), kNoise, generator);
+  const auto middle_px = Project(scene.camera, scene.Legs()[0].AxisPoint(0.5));
+  LegEdgeOptions options = WithoutLock();
+  options.largest_common_sigma_px = 1;
+  const LegEdges found = MeasureLegEdges(Joined(above, below, static_cast<int>(middle_px.y())), scene.Legs(),
+                                         scene.camera, options);
+  double largest_px = 0;
+  for (const LegEdge& edge : found.edges) {
+    if (!edge.left_out.empty()) continue;
+    EXPECT_GE(edge.observation.common_sigma_px, edge.rms_px);
+    largest_px = std::max(largest_px, edge.rms_px);
+  }
+  EXPECT_GT(largest_px, 0.05);
 }
 
 TEST(LegEdges, ALegThatSomethingCoversIsMeasuredRightOrNotAtAll) {

@@ -34,6 +34,23 @@ TEST(ShadingBasis, SlopesAreThoseOfTheFunctions) {
   }
 }
 
+TEST(ShadingBasis, SlopesByBlurAreThoseOfTheBrightness) {
+  constexpr double kStep = 0.01;
+  for (const ShadingModel model : {ShadingModel::kFlat, ShadingModel::kAngular, ShadingModel::kKinked}) {
+    const ShadingBasis basis = Basis(model);
+    Eigen::VectorXd coefficients(basis.size());
+    for (Eigen::Index i = 0; i < coefficients.size(); ++i)
+      coefficients[i] = 30 + 17 * static_cast<double>(i % 3);
+    const auto brightness = [&](double blur_px, double x) {
+      return ValuesAt({model, blur_px, kHalfWidth_px, kInside_px}, x).head(basis.size()).dot(coefficients);
+    };
+    for (double x = -4; x < 5.5; x += 0.31)
+      EXPECT_NEAR(basis.SlopeByBlur(x, coefficients),
+                  (brightness(kBlur_px + kStep, x) - brightness(kBlur_px - kStep, x)) / (2 * kStep), 0.02)
+          << x;
+  }
+}
+
 // Integral of f over the normal distribution about x of the whole blur, by fine summation.
 template <typename F>
 double BlurredBySummation(double x, F f) {
