@@ -28,17 +28,6 @@ const Names<bool HeldParameters::*> kHolds = {
     {"joint-offsets", &HeldParameters::joint_offsets},
 };
 
-const Names<std::optional<double> PriorKnowledge::*> kKnown = {
-    {"joint_reading_m", &PriorKnowledge::joint_reading_m},
-    {"radius_m", &PriorKnowledge::radius_m},
-    {"joint_offset_m", &PriorKnowledge::joint_offset_m},
-    {"base_joint_m", &PriorKnowledge::base_joint_m},
-    {"platform_joint_m", &PriorKnowledge::platform_joint_m},
-    {"focal_length_px", &PriorKnowledge::focal_length_px},
-    {"principal_point_px", &PriorKnowledge::principal_point_px},
-    {"distortion", &PriorKnowledge::distortion},
-};
-
 template <typename Value>
 std::vector<std::string> NamesOf(const Names<Value>& table) {
   std::vector<std::string> names;
@@ -71,7 +60,7 @@ bool KnowsASize(const CalibrateSettings& settings, const PriorKnowledge& known) 
 
 std::vector<std::string> LensNames() { return NamesOf(kLenses); }
 std::vector<std::string> HoldNames() { return NamesOf(kHolds); }
-std::vector<std::string> KnownNames() { return NamesOf(kKnown); }
+std::vector<std::string> KnownNames() { return NamesOf(kKnownFields); }
 std::optional<LensModel> LensFromName(const std::string& name) { return Find(kLenses, name); }
 
 std::string LensName(LensModel lens) {
@@ -83,7 +72,7 @@ std::string LensName(LensModel lens) {
 std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (!Find(kKnown, name))
+  if (!Find(kKnownFields, name))
     throw std::invalid_argument(fmt::format("\"{}\" is none of {}", name, fmt::join(KnownNames(), ", ")));
   if (equals == std::string::npos)
     throw std::invalid_argument(
@@ -99,13 +88,13 @@ std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text
 
 PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettings& settings) {
   PriorKnowledge known = settings.free_legs ? PriorKnowledge{} : session;
-  for (const auto& [name, sigma] : settings.known) known.*Find(kKnown, name).value() = sigma;
+  for (const auto& [name, sigma] : settings.known) known.*Find(kKnownFields, name).value() = sigma;
   return known;
 }
 
 std::vector<std::pair<std::string, double>> NamedKnowledge(const PriorKnowledge& known) {
   std::vector<std::pair<std::string, double>> named;
-  for (const auto& [name, field] : kKnown)
+  for (const auto& [name, field] : kKnownFields)
     if (known.*field) named.emplace_back(name, *(known.*field));
   return named;
 }

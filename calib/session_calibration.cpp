@@ -183,8 +183,8 @@ class SessionCalibrator {
   void RefineFirstPose() {
     PredictPoses();
     std::vector<size_t> scouts;
-    const size_t step = std::max<size_t>(1, count_ / static_cast<size_t>(options_.scouts));
-    for (size_t i = 0; i < count_; i += step) scouts.push_back(i);
+    const size_t scout_count = std::min(count_, static_cast<size_t>(options_.scouts));
+    for (size_t i = 0; i < scout_count; ++i) scouts.push_back(i * count_ / scout_count);
     LegLockOptions lock;
     if (result_.first_pose_from != "camera.yaml") lock.range_px = kTagPoseRange_px;
     LegEdgeOptions rough_edges = options_.edges;

@@ -18,19 +18,6 @@
 namespace legible {
 namespace {
 
-using KnownField = std::optional<double> PriorKnowledge::*;
-
-const std::vector<std::pair<std::string, KnownField>> kKnownFields = {
-    {"joint_reading_m", &PriorKnowledge::joint_reading_m},
-    {"radius_m", &PriorKnowledge::radius_m},
-    {"joint_offset_m", &PriorKnowledge::joint_offset_m},
-    {"base_joint_m", &PriorKnowledge::base_joint_m},
-    {"platform_joint_m", &PriorKnowledge::platform_joint_m},
-    {"focal_length_px", &PriorKnowledge::focal_length_px},
-    {"principal_point_px", &PriorKnowledge::principal_point_px},
-    {"distortion", &PriorKnowledge::distortion},
-};
-
 const std::set<std::string> kImageExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm"};
 
 PriorKnowledge KnownFromYaml(const YamlValue& section) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/camera.h"
@@ -23,6 +24,18 @@ struct PriorKnowledge {
   std::optional<double> focal_length_px;
   std::optional<double> principal_point_px;
   std::optional<double> distortion;  // each coefficient
+};
+// By the names that files and options give them.
+using KnownField = std::optional<double> PriorKnowledge::*;
+inline const std::vector<std::pair<std::string, KnownField>> kKnownFields = {
+    {"joint_reading_m", &PriorKnowledge::joint_reading_m},
+    {"radius_m", &PriorKnowledge::radius_m},
+    {"joint_offset_m", &PriorKnowledge::joint_offset_m},
+    {"base_joint_m", &PriorKnowledge::base_joint_m},
+    {"platform_joint_m", &PriorKnowledge::platform_joint_m},
+    {"focal_length_px", &PriorKnowledge::focal_length_px},
+    {"principal_point_px", &PriorKnowledge::principal_point_px},
+    {"distortion", &PriorKnowledge::distortion},
 };
 
 enum class TagCarrier { kBase, kPlatform };

@@ -37,10 +37,12 @@ struct LegEdge {
   std::string left_out;  // the reason; empty: measured
   EdgeObservation observation;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // outline normal of the line through the samples
-  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();  // of `normal`: rank 2
-  double contrast = 0;                                          // grey levels, inside minus outside
-  double length_px = 0;                                         // measured
-  double rms_px = 0;                                            // of the samples about their line
+  // Of `normal`, rank 2: by the samples' own sigmas; what moves all of them alike is the observation's
+  // common_sigma_px.
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
+  double contrast = 0;   // grey levels, inside minus outside
+  double length_px = 0;  // measured
+  double rms_px = 0;     // of the samples about their line
 };
 
 struct LegEdges {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,15 +10,17 @@
 namespace legible {
 namespace {
 
+size_t WidthOf(const std::string& name) { return std::max<size_t>(18, name.size() + 2); }
+
 void Print(const BenchTable& table) {
   fmt::print("{}\n", table.name);
   if (table.rows.empty()) return;
   fmt::print("{:24}", "");
-  for (const auto& [name, value] : table.rows.front().figures) fmt::print("{:>18}", name);
+  for (const auto& [name, value] : table.rows.front().figures) fmt::print("{:>{}}", name, WidthOf(name));
   fmt::print("\n");
   for (const BenchTable::Row& row : table.rows) {
     fmt::print("{:24}", row.label);
-    for (const auto& [name, value] : row.figures) fmt::print("{:>18.5g}", value);
+    for (const auto& [name, value] : row.figures) fmt::print("{:>{}.5g}", value, WidthOf(name));
     fmt::print("\n");
   }
   fmt::print("\n");
