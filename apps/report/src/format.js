@@ -64,7 +64,10 @@ const FIELDS = {
   platform_joint_m: { label: "platform joint B", ...LENGTH },
   radius_m: { label: "radius R", unit: "µm", scale: 1e6 },
   joint_offset_m: { label: "joint offset", ...LENGTH },
-  edge_shift_px: { label: "shading shift of edge", ...PIXELS },
+  edge_1_shift_px: { label: "shading shift of edge 1", ...PIXELS },
+  edge_1_tilt_px: { label: "shading tilt of edge 1", ...PIXELS },
+  edge_2_shift_px: { label: "shading shift of edge 2", ...PIXELS },
+  edge_2_tilt_px: { label: "shading tilt of edge 2", ...PIXELS },
 };
 
 function unitBySuffix(name) {

@@ -194,10 +194,10 @@ function differencePlot({ label, unit, axes }, rows, width) {
   const color = ({ axis }) => (axis ? AXIS_COLOR[axis] : COLOR.text);
   return plot(`${label}: difference from the drawing by leg`, {
     width,
-    height: 210,
+    height: 216,
     marginLeft: 52,
     marginTop: 28,
-    marginBottom: 40,
+    marginBottom: 46,
     x: {
       label: "leg",
       domain: [0.5, 6.5],

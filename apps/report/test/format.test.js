@@ -64,6 +64,7 @@ test("parameter names inside a text are put into words", () => {
     inWords("a combination of camera.fx_px (+), legs[1].base_joint_in_camera_m.z (-) is open"),
     "a combination of camera focal length fx (+), leg 1 base joint A in camera z (−) is open",
   );
+  assert.equal(inWords("legs[4].edge_1_tilt_px (+)"), "leg 4 shading tilt of edge 1 (+)");
 });
 
 test("file names inside a text are left alone", () => {
