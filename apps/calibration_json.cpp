@@ -143,6 +143,7 @@ void AddFit(const CalibrationRun& run, ordered_json& json) {
                            {"shift", if_fitted(calibration.noise.shift)},
                            {"tilt", if_fitted(calibration.noise.tilt)}};
   json["joint_reading_rms_sigma"] = has_readings ? calibration.reading_rms : kUnknown;
+  json["joint_readings_left_out"] = OutlyingReadingSentences(run);
   json["iterations"] = calibration.iterations;
 }
 

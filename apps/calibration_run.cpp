@@ -44,6 +44,16 @@ std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run) {
   return poses;
 }
 
+std::vector<std::string> OutlyingReadingSentences(const CalibrationRun& run) {
+  std::vector<std::string> sentences;
+  for (const OutlyingReading& reading : run.result.calibration.outlying_readings)
+    sentences.push_back(fmt::format(
+        "{}: the joint readings did not count: that of leg {} is {:.3f} mm {} than the image's edges have it",
+        run.result.images[run.result.estimated[static_cast<size_t>(reading.image)]].name, reading.leg + 1,
+        1e3 * std::abs(reading.off_m), reading.off_m > 0 ? "longer" : "shorter"));
+  return sentences;
+}
+
 std::string TagSentence(const Session& session, const TagCheck& check) {
   bool on_platform = false;
   for (const TagGroup& group : session.tags->groups)

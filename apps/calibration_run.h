@@ -32,6 +32,9 @@ std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionC
 // that took no part, and where no rigid platform was assumed.
 std::vector<std::optional<Rigid3>> PlatformByImage(const CalibrationRun& run);
 
+// Each image whose joint readings did not count, in a sentence without full stop.
+std::vector<std::string> OutlyingReadingSentences(const CalibrationRun& run);
+
 // What a check by tags says, in a clause.
 std::string TagSentence(const Session& session, const TagCheck& check);
 

@@ -154,12 +154,16 @@ std::string WarningsText(const CalibrationRun& run) {
     if (const std::string reason = run.result.images[i].left_out; !reason.empty())
       text +=
           fmt::format("legible: warning: {}: left out: {}\n", run.session.images[i].file.string(), reason);
+  for (const std::string& sentence : run.result.misfit_tags)
+    text += fmt::format("legible: warning: {}\n", sentence);
   if (!run.result.first_look.empty())
     text += fmt::format(
         "legible: warning: a first look at the legs did not refine where the camera is ({}): the edges were "
         "searched "
         "from {} as it stands\n",
         run.result.first_look, run.result.first_pose_from);
+  for (const std::string& sentence : OutlyingReadingSentences(run))
+    text += fmt::format("legible: warning: joints.csv: {}\n", sentence);
   if (!run.session.unlisted_images.empty())
     text +=
         fmt::format("legible: warning: {} of the session's folder {} no row in joints.csv and took no part\n",

@@ -30,9 +30,10 @@ struct ResidualSummary {
 ResidualSummary Summarise(const Residuals& edges) {
   double weight = 0, sum = 0, squares = 0;
   for (const EdgeResidualSet* edge : edges) {
-    weight += edge->weight.sum();
-    sum += edge->weight.dot(edge->residual_px);
-    squares += edge->weight.dot(edge->residual_px.cwiseAbs2());
+    const Eigen::VectorXd counted = edge->CountedWeight();
+    weight += counted.sum();
+    sum += counted.dot(edge->residual_px);
+    squares += counted.dot(edge->residual_px.cwiseAbs2());
   }
   return weight > 0 ? ResidualSummary{std::sqrt(squares / weight), sum / weight} : ResidualSummary{};
 }
@@ -66,7 +67,7 @@ json SamplesJson(const LegEdge& edge, const EdgeResidualSet* residuals,
     const Eigen::Vector2d& point = edge.observation.samples[i].point_px;
     const auto row = static_cast<Eigen::Index>(i);
     const double residual_px = residuals ? residuals->residual_px[row] : kUnknown;
-    const double weight = residuals ? residuals->weight[row] : kUnknown;
+    const double weight = residuals ? residuals->CountedWeight()[row] : kUnknown;
     samples.push_back({Rounded(point.x()), Rounded(point.y()), Rounded(residual_px, 1e4), Rounded(weight),
                        Rounded(PlaceAlongLeg(outline, point))});
   }

@@ -37,7 +37,7 @@ Eigen::MatrixXd FromSharedParameters(const LegCalibration& calibration) {
     const int shared = FirstParameterOfLeg(leg);
     map.block<5, 5>(row + 3, shared + leg_parameter::kPlatformJoint).setIdentity();
     const int base_joint = shared + leg_parameter::kBaseJoint;
-    for (int other = 0; other < kLegCount; ++other)
+    for (int other = 0; other < kLegCount && !calibration.base_joints_held; ++other)
       map.block<3, 3>(kCameraParameterCount + other * kModelLegParameters, base_joint) =
           joints.d_joints.block<3, 3>(3 * other, 3 * leg);
     map.block<6, 3>(kPlacement, base_joint) = base.d_joints.middleCols<3>(3 * leg);

@@ -9,8 +9,8 @@
 namespace legible {
 
 // Covariance of the parameters that a model is used with: the camera's, then for each leg A in base, B in
-// platform, R and joint offset, in the gauges of LegCalibration, then the placement of the base
-// (BaseFromShared); parameters that were held have zero rows.
+// platform, R and joint offset, in the gauges of LegCalibration, then the placement of the base (displacement
+// in camera); parameters that were held have zero rows.
 struct ModelCovariance {
   std::vector<std::string> names;
   Eigen::MatrixXd covariance;

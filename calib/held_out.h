@@ -11,7 +11,7 @@
 namespace legible {
 
 struct HeldOut {
-  std::optional<double> rms_px;                     // over all samples of all images held out
+  std::optional<double> rms_px;                     // over all samples of all images that have a figure
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
 };
 
@@ -21,7 +21,9 @@ std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> 
 // Leaves the images of one fold after the other out, calibrates on the rest from `solution`, predicts the
 // edges of those left out and compares, all samples alike: there is no weight that takes an outlier out. The
 // platform's pose in them comes from the joint readings alone; where the estimation uses none it, or the
-// direction of each leg that is free, is fitted to the image's edges, all else held.
+// direction of each leg that is free, is fitted to the image's edges, all else held. An image has no figure
+// where a joint reading of it did not count in the solution, where its readings lead to no pose, and where
+// the rest did not converge.
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
                       const LegCalibrationOptions& options, const std::vector<int>& fold_of_image);
 

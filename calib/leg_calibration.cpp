@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "calib/problem_setup.h"
+#include "calib/reading_rounds.h"
 #include "calib/tag_rounds.h"
 #include "core/stopwatch.h"
 
@@ -27,14 +28,15 @@ class Calibrator {
         options_(options),
         start_(StartOf(input)),
         problem_(ProblemOf(input, options, start_)),
+        readings_(problem_),
         tags_(problem_) {
     AddEdges();
     for (const EdgeResidualSet& edge : edges_) samples_ += static_cast<int>(edge.weight.size());
-    for (const PoseUnit& unit : problem_.units)
-      for (const LegObservation& leg : unit.legs) readings_ += leg.reading_m ? 1 : 0;
   }
 
-  bool HasEnough() const { return samples_ + readings_ + tags_.rows() + PriorRows() > UnknownCount(); }
+  bool HasEnough() const {
+    return samples_ + readings_.count() + tags_.rows() + PriorRows() > UnknownCount();
+  }
   int UnknownCount() const {
     int unknowns =
         static_cast<int>(problem_.free.count()) - (problem_.HasPlatformGauge() ? 6 : 0) + PlacementUnknowns();
@@ -48,6 +50,7 @@ class Calibrator {
     noise_ = UniformNoise({MedianScale(edges_), 1, 1});
     UpdateWeights(edges_, noise_);
     tags_.Start();
+    readings_.Loosen(MedianScale(edges_));
     for (int round = 0; round < kMaxRounds; ++round) {
       const SolveSummary summary = SolveRound();
       if (!CanEvaluate()) return false;
@@ -57,7 +60,10 @@ class Calibrator {
     return false;
   }
 
-  bool CanEvaluate() { return EvaluateEdges() && !tags_.Evaluate(); }
+  bool CanEvaluate() {
+    readings_.Evaluate();
+    return EvaluateEdges() && !tags_.Evaluate();
+  }
   // The first group that starts behind the camera; empty: none.
   std::string TagsBehindCamera() {
     const std::optional<size_t> group = tags_.Evaluate();
@@ -82,10 +88,11 @@ class Calibrator {
   double Rms() const;
   double EdgeSigma() const;
   double OtherSquares() const;
-  double ReadingSquares() const;
   int PriorRows() const {
-    return static_cast<int>(problem_.priors.size()) + (problem_.base_joint_sigma_m > 0 ? 12 : 0) +
-           PlacementUnknowns();  // of which each has a prior
+    // Of a prior on all platform joints six rows follow where their frame is fitted to the drawing.
+    const bool on_platform = input_.known.platform_joint_m && problem_.HasPlatformGauge();
+    return static_cast<int>(problem_.priors.size()) - (on_platform ? 6 : 0) +
+           (problem_.base_joint_sigma_m > 0 ? 12 : 0) + PlacementUnknowns();  // of which each has a prior
   }
   int PlacementUnknowns() const { return 6 * static_cast<int>(problem_.tag_placements.size()); }
 
@@ -93,13 +100,13 @@ class Calibrator {
   const LegCalibrationOptions& options_;
   CalibrationStart start_;
   EstimationProblem problem_;
+  ReadingRounds readings_;
   TagRounds tags_;
   std::vector<EdgeResidualSet> edges_;  // parallel to sources_
   std::vector<const EdgeObservation*> sources_;
   std::vector<std::pair<size_t, size_t>> placements_;  // unit, leg observation in it
   NoiseByEdge noise_ = UniformNoise({});
   int samples_ = 0;
-  int readings_ = 0;
   int iterations_ = 0;
 };
 
@@ -175,13 +182,13 @@ bool Calibrator::Reweight(int round) {
   } else {
     // Of the freedom that all residuals have, readings and priors use up what their own squares show; tags,
     // whose sigma comes from their own squares, what placing their groups takes.
-    const double fitted = UnknownCount() - readings_ - PriorRows() -
+    const double fitted = UnknownCount() - readings_.Weight() - PriorRows() -
                           6.0 * static_cast<double>(tags_.SeenGroups()) + OtherSquares();
     noise_ = EstimateNoise(edges_, std::max(fitted, 0.0));
   }
   UpdateWeights(edges_, noise_);
   const double tag_sigma_before_px = tags_.sigma_px();
-  double change = tags_.Reweight(round < kRoundsByMedian);
+  double change = tags_.Reweight(round < kRoundsByMedian) + readings_.Reweight();
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
   const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
@@ -193,8 +200,9 @@ bool Calibrator::Reweight(int round) {
 double Calibrator::Rms() const {
   double squares = 0, weights = 0;
   for (const EdgeResidualSet& edge : edges_) {
-    squares += (edge.weight.array() * edge.residual_px.array().square()).sum();
-    weights += edge.weight.sum();
+    const Eigen::VectorXd weight = edge.CountedWeight();
+    squares += weight.dot(edge.residual_px.cwiseAbs2());
+    weights += weight.sum();
   }
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }
@@ -202,16 +210,17 @@ double Calibrator::Rms() const {
 // Root mean square of what the noise says of one sample: its own, and its edge's common shift.
 double Calibrator::EdgeSigma() const {
   double variance = 0;
-  for (const EdgeResidualSet& edge : edges_)
-    variance +=
-        (NoiseOf(edge).sample * edge.sigma_px).squaredNorm() +
-        static_cast<double>(edge.sigma_px.size()) * std::pow(NoiseOf(edge).shift * edge.common_sigma_px, 2);
+  for (const EdgeResidualSet& edge : edges_) {
+    const EdgeNoise& noise = noise_[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
+    variance += (noise.sample * edge.sigma_px).squaredNorm() +
+                static_cast<double>(edge.sigma_px.size()) * std::pow(noise.shift * edge.common_sigma_px, 2);
+  }
   return samples_ > 0 ? std::sqrt(variance / samples_) : 0;
 }
 
 // Sum of squares, in sigmas, of the residuals of readings and priors.
 double Calibrator::OtherSquares() const {
-  double squares = ReadingSquares();
+  double squares = readings_.Squares();
   for (const PlacementResiduals& placement : EvaluatePlacements(problem_))
     squares += placement.residual.squaredNorm();
   for (const ParameterPrior& prior : problem_.priors)
@@ -219,22 +228,6 @@ double Calibrator::OtherSquares() const {
   if (problem_.base_joint_sigma_m > 0)
     squares += EvaluateDrawnBase(problem_, problem_.shared).residual_m.squaredNorm() /
                (problem_.base_joint_sigma_m * problem_.base_joint_sigma_m);
-  return squares;
-}
-
-double Calibrator::ReadingSquares() const {
-  const double at_rest[6] = {};
-  double squares = 0;
-  for (const PoseUnit& unit : problem_.units)
-    for (const LegObservation& observation : unit.legs) {
-      if (!observation.reading_m) continue;
-      const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
-      const double length_m =
-          (TipOf(unit, leg, at_rest).b_in_camera - leg.segment<3>(leg_parameter::kBaseJoint)).norm();
-      squares += std::pow((length_m - leg[leg_parameter::kJointOffset] - *observation.reading_m) /
-                              observation.reading_sigma_m,
-                          2);
-    }
   return squares;
 }
 
@@ -247,6 +240,7 @@ LegCalibration Calibrator::Result() const {
     if (unit.rigid) result.camera_from_platform[static_cast<size_t>(unit.image)] = unit.camera_from_platform;
   result.base_joints_in_camera_m = BaseJointsInCamera(problem_.shared);
   result.drawn_base_joints_m = problem_.drawn_base_joints;
+  result.base_joints_held = options_.hold.base_joints;
   const BaseFrame base = FitBaseFrame(result.base_joints_in_camera_m, result.drawn_base_joints_m);
   const JointsInBase joints = TakeToBase(base, result.base_joints_in_camera_m);
   result.camera_from_base = base.camera_from_base;
@@ -263,7 +257,8 @@ LegCalibration Calibrator::Result() const {
   result.rms_px = Rms();
   result.edges = edges_;
   result.edge_sigma_px = EdgeSigma();
-  if (readings_ > 0) result.reading_rms = std::sqrt(ReadingSquares() / readings_);
+  result.reading_rms = readings_.Rms();
+  result.outlying_readings = readings_.Outlying();
   result.samples = samples_;
   result.iterations = iterations_;
   const Stopwatch of_covariance;

@@ -8,6 +8,7 @@
 #include "calib/base_frame.h"
 #include "calib/leg_model.h"
 #include "calib/observability.h"
+#include "calib/reading_rounds.h"
 #include "calib/robust_weights.h"
 #include "core/session/session.h"
 #include "core/vision/edge_observation.h"
@@ -96,14 +97,16 @@ struct LegCalibration {
   GoughStewart robot;       // A in base, B in platform (the rigid fit of B to the drawing)
   LegPoints base_joints_in_camera_m;
   LegPoints drawn_base_joints_m;                      // that the base frame is fitted by
+  bool base_joints_held = false;                      // among themselves, at the drawing
   std::vector<Rigid3> camera_from_platform;           // by image; the first guess where it is not rigid
   std::array<Eigen::Vector4d, kLegCount> shading_px;  // lasting: shift and tilt of edge 1, of edge 2
   Observability observability;                        // covariance of the shared parameters, A in camera
   EdgeNoise noise;  // what the residuals say of the samples' own sigmas, over all edges
   NoiseByEdge noise_by_edge;
-  double edge_sigma_px = 0;            // root mean square over the samples of what `noise` says of one sample
-  double rms_px = 0;                   // weighted, of all samples' distances
-  double reading_rms = 0;              // of the reading residuals in their sigmas; 0 without readings
+  double edge_sigma_px = 0;  // root mean square over the samples of what `noise` says of one sample
+  double rms_px = 0;         // weighted, of all samples' distances
+  double reading_rms = 0;    // of the reading residuals in their sigmas, weighted; 0 without readings
+  std::vector<OutlyingReading> outlying_readings;
   std::vector<EdgeResidualSet> edges;  // residual and weight of every sample
   std::vector<TagGroupFit> tags;       // of each group of the input; only where converged
   double tag_sigma_px = 0;  // of a coordinate of a corner, as the residuals show it; 0 without tags

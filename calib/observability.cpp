@@ -163,6 +163,16 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
   return result;
 }
 
+// A joint of which one coordinate is open is open: that another one is next to 0, and does not grow with the
+// leg's scale, is the camera's place, not knowledge.
+void KnowPointsAsWholes(std::vector<bool>& known) {
+  for (int leg = 0; leg < kLegCount; ++leg)
+    for (const int entry : {leg_parameter::kBaseJoint, leg_parameter::kPlatformJoint}) {
+      const auto first = known.begin() + FirstParameterOfLeg(leg) + entry;
+      std::fill_n(first, 3, std::all_of(first, first + 3, [](bool one) { return one; }));
+    }
+}
+
 Observability WhereAllIsHeld() {
   return {{},
           {},
@@ -199,6 +209,7 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
   result.known.resize(kSharedParameterCount);
   for (int i = 0; i < kSharedParameterCount; ++i)
     result.known[static_cast<size_t>(i)] = vectors.row(i).head(unknown).norm() < kTouched;
+  KnowPointsAsWholes(result.known);
   return result;
 }
 

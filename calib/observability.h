@@ -21,7 +21,8 @@ struct Observability {
   std::vector<WeakDirection> unobservable;  // known no better than to a third of their own size
   std::vector<WeakDirection> weak;          // the three least certain of the rest
   Eigen::MatrixXd covariance;  // kSharedParameterCount square, SI units and px, in the platform gauge
-  std::vector<bool> known;     // per parameter: held, or untouched by an unobservable direction
+  std::vector<bool>
+      known;  // per parameter: held, or untouched by an unobservable direction; a joint as a whole
 };
 
 // Eigenvalues of the problem's information in natural units (each parameter relative to the size of its

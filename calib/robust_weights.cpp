@@ -56,14 +56,14 @@ LineThroughResiduals FitLine(const EdgeResidualSet& edge, const Eigen::Matrix2d&
 
 // Weight of an edge's shift and tilt: full while they are 1 sigma off, then such that they count as 1 sigma
 // off, and next to nothing from 6 on. Shading that is misunderstood moves whole edges.
-double CommonWeight(const EdgeResidualSet& edge, const Eigen::Vector2d& common_variance,
-                    double sample_noise) {
+void WeighAsAWhole(const Eigen::Vector2d& common_variance, double sample_noise, EdgeResidualSet& edge) {
   constexpr double kLeast = 1e-4;
   const LineThroughResiduals line = FitLine(edge, Eigen::Matrix2d::Zero());
   Eigen::Matrix2d covariance = sample_noise * sample_noise * line.information.inverse();
   covariance.diagonal() += common_variance;
   const double square = line.value_px.dot(covariance.inverse() * line.value_px) / 2;
-  return std::max(RobustWeight(std::sqrt(square)) / std::max(square, 1.0), kLeast);
+  edge.trust = RobustWeight(std::sqrt(square));
+  edge.common_weight = std::max(edge.trust / std::max(square, 1.0), kLeast);
 }
 
 // Method of moments: values of known noise variance and of a further variance known up to a common factor.
@@ -92,12 +92,13 @@ struct VarianceFactor {
 
 // Sums over the edges of one kind that tell its noise.
 struct NoiseSums {
-  double squares = 0, freedom = 0;
+  double squares = 0, freedom = 0, edges = 0;
   VarianceFactor shift, tilt;
 
   void Add(const NoiseSums& other, double weight) {
     squares += weight * other.squares;
     freedom += weight * other.freedom;
+    edges += weight * other.edges;
     shift.Add(other.shift, weight);
     tilt.Add(other.tilt, weight);
   }
@@ -123,7 +124,7 @@ SumsByEdge DrawnTowardsTheMean(const SumsByEdge& sums) {
     for (const NoiseSums& of_edge : of_leg) all.Add(of_edge, 1);
   SumsByEdge drawn = sums;
   for (auto& of_leg : drawn)
-    for (NoiseSums& of_edge : of_leg) of_edge.Add(all, kImagesOfTheMean / std::max(all.shift.count, 1.0));
+    for (NoiseSums& of_edge : of_leg) of_edge.Add(all, kImagesOfTheMean / std::max(all.edges, 1.0));
   return drawn;
 }
 
@@ -139,6 +140,7 @@ NoiseByEdge NoiseByLines(const std::vector<EdgeResidualSet>& edges, double param
     if (!HasLine(edge)) continue;
     At(sums, edge).squares += FitLine(edge, Eigen::Matrix2d::Zero()).weighted_squares;
     At(sums, edge).freedom += edge.weight.sum() - 2;
+    At(sums, edge).edges += 1;
     lines += 2;
   }
   const SumsByEdge within = DrawnTowardsTheMean(sums);
@@ -187,7 +189,7 @@ double MedianScale(const std::vector<EdgeResidualSet>& edges) {
     for (Eigen::Index i = 0; i < edge.residual_px.size(); ++i)
       sizes.push_back(std::abs(edge.residual_px[i] / edge.sigma_px[i]));
   if (sizes.empty()) return 1;
-  return std::max(1.4826 * MedianOf(std::move(sizes)), kLeastScale);
+  return std::max(kSigmaOfMedian * MedianOf(std::move(sizes)), kLeastScale);
 }
 
 NoiseByEdge EstimateNoise(const std::vector<EdgeResidualSet>& edges, double parameters) {
@@ -200,11 +202,11 @@ void UpdateWeights(std::vector<EdgeResidualSet>& edges, const NoiseByEdge& noise
   for (EdgeResidualSet& edge : edges) {
     const EdgeNoise& own = noise[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
     Eigen::ArrayXd left = edge.residual_px;
-    edge.common_weight = 1;
+    edge.common_weight = edge.trust = 1;
     if (edge.common_sigma_px > 0 && HasLine(edge)) {
       const Eigen::Vector2d common =
           Eigen::Array2d(own.shift, own.tilt).square() * std::pow(edge.common_sigma_px, 2);
-      edge.common_weight = CommonWeight(edge, common, own.sample);
+      WeighAsAWhole(common, own.sample, edge);
       // FitLine counts in units of each sample's sigma: so must what is known of shift and tilt.
       const Eigen::Matrix2d prior =
           (std::pow(own.sample, 2) * edge.common_weight * common.cwiseInverse()).asDiagonal();

@@ -12,20 +12,27 @@ namespace legible {
 // weight with a cosine flank). Costs 0.1 % of efficiency on normal noise.
 double RobustWeight(double normalised);
 
-// Residuals of one edge in one image, divided by each sample's own sigma_px.
+// Residuals of one edge in one image.
 struct EdgeResidualSet {
   int image = 0;
   int leg = 0;
   int edge = 0;
-  Eigen::VectorXd place;     // along the edge, -1 … 1
-  Eigen::VectorXd sigma_px;  // of each sample, as measured
-  Eigen::VectorXd residual_px;
-  Eigen::VectorXd weight;  // robust, [0, 1]
+  Eigen::VectorXd place;        // along the edge, -1 … 1
+  Eigen::VectorXd sigma_px;     // of each sample, as measured
+  Eigen::VectorXd residual_px;  // distances from the modelled edge, outward
+  Eigen::VectorXd weight;       // robust, [0, 1]
   double common_sigma_px = 0;
-  double common_weight = 1;  // robust, of the information on shift and tilt
+  double common_weight = 1;  // of the information on shift and tilt
+  double trust = 1;          // robust, [0, 1]: of the edge as a whole
+
+  // What each sample counts in sums over many edges.
+  Eigen::VectorXd CountedWeight() const { return trust * weight; }
 };
 
-// 1.4826 x median |residual / sigma_px|: a scale that half the samples being wrong does not move.
+// Standard deviation of normal noise over the median of its absolute values.
+inline constexpr double kSigmaOfMedian = 1.4826;
+
+// kSigmaOfMedian x median |residual / sigma_px|: a scale that half the samples being wrong does not move.
 double MedianScale(const std::vector<EdgeResidualSet>& edges);
 
 // Noise that the weighted residuals show; `parameters` unknowns were fitted to them. The scale is corrected

@@ -23,6 +23,7 @@ constexpr double kGuessedCentreShare = 0.02;  // of the image width
 constexpr double kGuessedDistortion = 0.2;    // each coefficient
 constexpr double kUnknownLensBend_px = 12;
 constexpr double kSearchAfterScouts_px = 5;
+constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
 constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
 
@@ -41,6 +42,14 @@ struct Prediction {
   std::vector<std::optional<Rigid3>>
       base_from_platform;  // of each image; none where the readings lead to none
 };
+
+// Of the tags whose corners a sighting holds, four by four.
+double MeanSide_px(const GroupSighting& sighting) {
+  double sum = 0;
+  for (size_t i = 0; i + 1 < sighting.corners_px.size(); i += 4)
+    sum += (sighting.corners_px[i + 1] - sighting.corners_px[i]).norm();
+  return sum / (static_cast<double>(sighting.corners_px.size()) / 4);
+}
 
 class SessionCalibrator {
  public:
@@ -67,6 +76,7 @@ class SessionCalibrator {
     Solve();
     result_.times.solve_s = lap.Lap();
     if (Usable()) {
+      AdoptPoses(result_.calibration);
       FindEdges(kSearchAtLast_px);
       result_.times.detect_s += lap.Lap();
       Solve();
@@ -164,11 +174,20 @@ class SessionCalibrator {
         }
         const auto pose = LocateGroup(prediction_.camera, sighting);
         if (!pose) continue;
+        if (pose->rms_px > kLargestTagMisfit * MeanSide_px(sighting)) {
+          result_.misfit_tags.push_back(
+              fmt::format("the tags {} lie {:.0f} px from where tags.yaml has them to each other: check its "
+                          "ids and corners",
+                          group.name, pose->rms_px));
+          continue;
+        }
         prediction_.camera_from_base = pose->camera_from_group * Inverse(group.carrier_from_group);
         result_.first_pose_from = "tags " + group.name;
         return;
       }
     }
+    if (!session_.camera_from_base && !result_.misfit_tags.empty())
+      throw std::invalid_argument(result_.misfit_tags.front());
     if (!session_.camera_from_base)
       throw std::invalid_argument(
           "the session does not say where the camera is; give camera_from_base in camera.yaml (a tape "
@@ -218,6 +237,13 @@ class SessionCalibrator {
     prediction_.robot = calibration.robot;
     prediction_.camera_from_base = calibration.camera_from_base;
     PredictPoses();
+  }
+
+  // Where the edges have the platform: a wrong reading must not take them along once more.
+  void AdoptPoses(const LegCalibration& calibration) {
+    for (size_t k = 0; k < result_.estimated.size(); ++k)
+      prediction_.base_from_platform[result_.estimated[k]] =
+          Inverse(calibration.camera_from_base) * calibration.camera_from_platform[k];
   }
 
   void PredictPoses() {
@@ -306,8 +332,9 @@ class SessionCalibrator {
     const size_t image = used[static_cast<size_t>(edge.image)];
     squares_.resize(count_);
     weights_.resize(count_);
-    squares_[image] += (edge.weight.array() * edge.residual_px.array().square()).sum();
-    weights_[image] += edge.weight.sum();
+    const Eigen::VectorXd weight = edge.CountedWeight();
+    squares_[image] += weight.dot(edge.residual_px.cwiseAbs2());
+    weights_[image] += weight.sum();
     result_.images[image].rms_px = std::sqrt(squares_[image] / std::max(weights_[image], 1e-9));
   }
 
@@ -342,11 +369,16 @@ class SessionCalibrator {
     }
   }
 
-  // By the readings alone, which is what the robot would be sent to; without readings as the edges have it.
+  // By the readings alone, which is what the robot would be sent to, unless one of them did not count;
+  // without readings as the edges have it.
   std::optional<Rigid3> PlatformPose(size_t in_estimation, size_t image, bool by_readings) const {
     if (!by_readings) return result_.calibration.camera_from_platform[in_estimation];
     const auto& base_from_platform = prediction_.base_from_platform[image];
-    if (!base_from_platform) return std::nullopt;
+    const auto& outlying = result_.calibration.outlying_readings;
+    const bool is_wrong = std::any_of(outlying.begin(), outlying.end(), [&](const OutlyingReading& reading) {
+      return static_cast<size_t>(reading.image) == in_estimation;
+    });
+    if (!base_from_platform || is_wrong) return std::nullopt;
     return prediction_.camera_from_base * *base_from_platform;
   }
 

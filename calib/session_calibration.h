@@ -62,8 +62,9 @@ struct SessionCalibration {
   // their pose was fitted): root mean square over all of them.
   std::optional<double> held_out_rms_px;
   std::vector<TagCheck> tag_checks;
-  std::string first_pose_from;  // "tags base_board" or "camera.yaml"
-  std::string first_look;       // why the camera's first pose could not be refined; empty: it was
+  std::string first_pose_from;           // "tags base_board" or "camera.yaml"
+  std::vector<std::string> misfit_tags;  // groups on the base that were not used to place the camera, and why
+  std::string first_look;                // why the camera's first pose could not be refined; empty: it was
   StageTimes times;
 };
 

@@ -20,7 +20,7 @@ double MedianTagSigma(const std::vector<TagErrors>& tags) {
   for (const TagErrors& tag : tags)
     for (const double error_px : tag.error_px) sizes.push_back(std::abs(error_px));
   if (sizes.empty()) return kUsualSigma_px;
-  return std::max(1.4826 * MedianOf(std::move(sizes)), kLeastSigma_px);
+  return std::max(kSigmaOfMedian * MedianOf(std::move(sizes)), kLeastSigma_px);
 }
 
 double TagSigma(const std::vector<TagErrors>& tags, size_t groups) {

@@ -15,7 +15,7 @@ struct TagErrors {
   double weight = 1;  // robust, [0, 1]
 };
 
-// 1.4826 x median |error|: a scale that half the corners being wrong does not move.
+// kSigmaOfMedian x median |error|: a scale that half the corners being wrong does not move.
 double MedianTagSigma(const std::vector<TagErrors>& tags);
 
 // Noise of one coordinate of a corner, px: the weighted errors' root mean square after `groups` placements

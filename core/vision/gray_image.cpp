@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -44,13 +45,31 @@ bool IsIntactPng(const Bytes& bytes) {
   return false;
 }
 
+// A JPEG that breaks off would be filled up with grey. Cameras may append some bytes of their own to its end.
+bool IsTruncatedJpeg(const Bytes& bytes) {
+  constexpr std::uint8_t kStart[] = {0xff, 0xd8}, kEnd[] = {0xff, 0xd9};
+  constexpr std::ptrdiff_t kAppended = 4096;
+  if (bytes.size() < 2 || std::memcmp(bytes.data(), kStart, 2) != 0) return false;
+  const auto from = bytes.end() - std::min(kAppended, std::ssize(bytes));
+  return std::search(from, bytes.end(), std::begin(kEnd), std::end(kEnd)) == bytes.end();
+}
+
+// Empty where it cannot be decoded; OpenCV throws where it claims to be too large.
+cv::Mat Decoded(const Bytes& bytes) {
+  try {
+    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::optional<GrayImage> ReadGrayImage(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (bytes.empty() || (IsPng(bytes) && !IsIntactPng(bytes))) return std::nullopt;
-  const cv::Mat mat = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  if (bytes.empty() || (IsPng(bytes) && !IsIntactPng(bytes)) || IsTruncatedJpeg(bytes)) return std::nullopt;
+  const cv::Mat mat = Decoded(bytes);
   if (mat.empty()) return std::nullopt;
   return FromMat(mat);
 }

@@ -110,8 +110,7 @@ std::optional<GroupPose> LocateGroup(const Camera& camera, const GroupSighting& 
   if (object.size() < 4) return std::nullopt;
   std::vector<cv::Mat> rotations, translations;
   std::vector<double> errors;
-  // Normalised coordinates: the identity camera. Both solutions that a plane allows come back, the better
-  // first.
+  // Normalised coordinates: the identity camera.
   cv::solvePnPGeneric(object, image, cv::Matx33d::eye(), cv::noArray(), rotations, translations, false,
                       cv::SOLVEPNP_SQPNP, cv::noArray(), cv::noArray(), errors);
   if (rotations.empty()) return std::nullopt;
@@ -121,10 +120,11 @@ std::optional<GroupPose> LocateGroup(const Camera& camera, const GroupSighting& 
   };
   GroupPose pose{{RotationFromVector(vector(rotations[0])), vector(translations[0])}, 0};
   double squares = 0;
-  for (size_t i = 0; i < sighting.corners_px.size(); ++i)
-    squares +=
-        (Project(camera, pose.camera_from_group * sighting.corners_in_group_m[i]) - sighting.corners_px[i])
-            .squaredNorm();
+  for (size_t i = 0; i < sighting.corners_px.size(); ++i) {
+    const Eigen::Vector3d corner = pose.camera_from_group * sighting.corners_in_group_m[i];
+    if (!(corner.z() > 0)) return std::nullopt;
+    squares += (Project(camera, corner) - sighting.corners_px[i]).squaredNorm();
+  }
   pose.rms_px = std::sqrt(squares / static_cast<double>(sighting.corners_px.size()));
   return pose;
 }

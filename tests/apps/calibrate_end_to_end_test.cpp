@@ -192,6 +192,28 @@ TEST_F(Calibrate, LeavesAnImageOutWhoseReadingsLeadToNoPose) {
   EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("images_used"), 2);
 }
 
+TEST_F(Calibrate, NamesAJointReadingThatIsWrong) {
+  Edit("joints.csv", "001.png,0.44459822,", "001.png,0.44559822,");
+  const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  EXPECT_THAT(run.err,
+              testing::MatchesRegex(
+                  "legible: warning: joints.csv: 001.png: the joint readings did not count: that of leg 1 is "
+                  "[01]\\.[0-9]* mm longer than [^\n]*\n"));
+  EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("joint_readings_left_out").size(), 1u);
+}
+
+TEST_F(Calibrate, PlacesTheCameraWithoutTagsThatTheImagesContradict) {
+  Edit("tags.yaml", "{id: 0, corners_m", "{id: 9, corners_m");
+  Edit("tags.yaml", "{id: 3, corners_m", "{id: 0, corners_m");
+  Edit("tags.yaml", "{id: 9, corners_m", "{id: 3, corners_m");
+  const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitSuccess) << run.err;
+  EXPECT_THAT(run.err,
+              testing::MatchesRegex("legible: warning: the tags base_board lie [0-9]* px from [^\n]*\n"));
+  EXPECT_EQ(json::parse(Bytes(out() / "calibration.json")).at("first_camera_pose_from"), "camera.yaml");
+}
+
 TEST_F(Calibrate, SaysWhichImagesHaveNoRowInJointsCsv) {
   KeepImages(1);
   folder_.Write("session/images/new.png", "");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "calib/calibrated_model.h"
 #include "tests/calib/synthetic_tags.h"
@@ -231,8 +232,42 @@ TEST(LegCalibration, HeldBaseJointsKeepTheirShapeWhileTheBaseIsPlaced) {
   ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
   for (size_t i = 0; i < kLegCount; ++i)
     EXPECT_TRUE(AreNear(found.robot.legs[i].base_joint_m, input.drawing.legs[i].base_joint_m, 2e-6));
+  const ModelCovariance covariance = CovarianceOfModel(found);
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    EXPECT_EQ(SigmaOfLeg(found, covariance, leg).base_joint_m, Eigen::Vector3d::Zero());
+    EXPECT_GT(SigmaOfLeg(found, covariance, leg).base_joint_in_camera_m.minCoeff(), 0);
+  }
   EXPECT_TRUE(AreNear(found.camera_from_base.translation, session.true_camera_from_base.translation, 1e-4));
   EXPECT_FALSE(AreNear(input.camera_from_base.translation, session.true_camera_from_base.translation, 1e-4));
+}
+
+TEST(LegCalibration, WrongJointReadingsAreNamedAndDoNotCount) {
+  SyntheticOptions few = FewImages();
+  few.image_count = 16;
+  const SyntheticSession session = GenerateSession(few);
+  const LegCalibration clean = CalibrateLegs(InputOf(session, session.observations), {});
+  ASSERT_EQ(clean.status, CalibrationStatus::kConverged);
+  EXPECT_TRUE(clean.outlying_readings.empty());
+  auto observations = session.observations;
+  (*observations[4].joint_readings_m)[2] += 1e-3;
+  (*observations[9].joint_readings_m)[0] -= 1e-2;
+  const LegCalibration found = CalibrateLegs(InputOf(session, observations), {});
+  ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  ASSERT_EQ(found.outlying_readings.size(), 2);
+  const OutlyingReading &a = found.outlying_readings[0], &b = found.outlying_readings[1];
+  EXPECT_EQ(std::tuple(a.image, a.leg), std::tuple(4, 2));
+  EXPECT_EQ(std::tuple(b.image, b.leg), std::tuple(9, 0));
+  EXPECT_NEAR(a.off_m, 1e-3, 2e-4);
+  EXPECT_NEAR(b.off_m, -1e-2, 2e-4);
+  EXPECT_NEAR(found.edge_sigma_px, clean.edge_sigma_px, 0.01 * clean.edge_sigma_px);
+  const ModelCovariance covariance = CovarianceOfModel(found);
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Leg &estimate = found.robot.legs[static_cast<size_t>(leg)],
+              &truth = session.true_robot.legs[static_cast<size_t>(leg)];
+    const LegSigma sigma = SigmaOfLeg(found, covariance, leg);
+    EXPECT_NEAR(estimate.joint_offset_m, truth.joint_offset_m, 4 * sigma.joint_offset_m);
+    EXPECT_NEAR(estimate.radius_m, truth.radius_m, 4 * sigma.radius_m);
+  }
 }
 
 // Without readings and radii nothing but the tags says how large the robot is.

@@ -114,6 +114,29 @@ TEST(EstimateNoise, TellsTheCommonErrorsFromTheSamples) {
   EXPECT_NEAR(noise.tilt / (0.3 / 0.4), 1, 0.08);
 }
 
+// An edge whose samples scatter more than the others' has no more in common along it for that.
+TEST(EstimateNoise, TellsTheEdgesApart) {
+  std::mt19937_64 generator = TestGenerator();
+  auto edges =
+      DrawResiduals(generator, 12 * 400, 8, {.shift_px = 0.4, .tilt_px = 0.4, .common_sigma_px = 0.4});
+  const auto noisy = DrawResiduals(generator, 12 * 400, 8,
+                                   {.sample = 3, .shift_px = 0.4, .tilt_px = 0.4, .common_sigma_px = 0.4});
+  for (size_t i = 0; i < edges.size(); ++i)
+    if (edges[i].leg == 4 && edges[i].edge == 1) edges[i] = noisy[i];
+  NoiseByEdge noise = UniformNoise({MedianScale(edges), 1, 1});
+  for (int round = 0; round < 10; ++round) {
+    UpdateWeights(edges, noise);
+    noise = EstimateNoise(edges, 0);
+  }
+  // A 40th of the mean over all edges is in each.
+  EXPECT_NEAR(noise[4][1].sample / 3, 1, 0.05);
+  EXPECT_NEAR(noise[4][1].shift, 1, 0.2);
+  EXPECT_NEAR(noise[4][1].tilt, 1, 0.35);
+  EXPECT_NEAR(noise[0][0].sample, 1, 0.1);
+  EXPECT_NEAR(noise[0][0].shift, 1, 0.15);
+  EXPECT_NEAR(noise[0][0].tilt, 1, 0.15);
+}
+
 TEST(UpdateWeights, DoesNotBlameSamplesForWhatIsCommonAlongTheirEdge) {
   std::mt19937_64 generator = TestGenerator();
   auto edges = DrawResiduals(generator, 100, 20, {.common_sigma_px = 2});

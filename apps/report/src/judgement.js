@@ -102,6 +102,7 @@ function warningsOf(data) {
     ...openWarnings(data),
     ...heldOutWarnings(data),
     ...leftOutWarnings(data),
+    ...(data.calibration.joint_readings_left_out ?? []).map(sentence),
     ...weakWarnings(data),
     ...priorWarnings(data),
   ];

@@ -1,9 +1,12 @@
 #include "core/vision/gray_image.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 namespace legible {
 namespace {
@@ -49,6 +52,31 @@ TEST_F(GrayImageFile, ThatIsDamagedIsNoImageAndPrintsNothing) {
     EXPECT_FALSE(ReadBack()) << place;
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// OpenCV has a limit of its own, beyond which it throws.
+TEST_F(GrayImageFile, ThatClaimsToBeHugeIsNoImage) {
+  constexpr size_t kHeader = 12, kHeaderEnd = 29;  // type and data of the first chunk
+  for (size_t byte = 16; byte < 24; ++byte) bytes_[byte] = byte % 4 == 1 ? 1 : 0;  // 65536 x 65536
+  const auto checksum =
+      crc32(0, reinterpret_cast<const Bytef*>(bytes_.data() + kHeader), kHeaderEnd - kHeader);
+  for (size_t byte = 0; byte < 4; ++byte)
+    bytes_[kHeaderEnd + byte] = static_cast<char>(checksum >> (24 - 8 * byte));
+  EXPECT_FALSE(ReadBack());
+}
+
+TEST_F(GrayImageFile, OfAJpegIsReadWholeOrNotAtAll) {
+  const cv::Mat picture(120, 160, CV_8UC1, cv::Scalar(90));
+  std::vector<std::uint8_t> jpeg;
+  ASSERT_TRUE(cv::imencode(".jpg", picture, jpeg));
+  bytes_.assign(jpeg.begin(), jpeg.end());
+  EXPECT_TRUE(ReadBack());
+  bytes_.insert(bytes_.end(), 100, '\0');  // as some cameras append
+  EXPECT_TRUE(ReadBack());
+  for (const size_t length : {jpeg.size() / 2, jpeg.size() - 2}) {
+    bytes_.assign(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(length));
+    EXPECT_FALSE(ReadBack()) << length;
+  }
 }
 
 TEST_F(GrayImageFile, ThatIsNotThereIsNoImage) { EXPECT_FALSE(ReadGrayImage(file_ / "none.png")); }

@@ -1,0 +1,141 @@
+#include "calib/reading_rounds.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "calib/robust_weights.h"
+#include "core/vision/median.h"
+
+namespace legible {
+namespace {
+
+// Where a square that follows chi^2 stands among normal ones (Wilson and Hilferty); below the median: 0.
+double AsNormal(double square, double freedom) {
+  const double variance = 2 / (9 * freedom);
+  return std::max((std::cbrt(square / freedom) - (1 - variance)) / std::sqrt(variance), 0.0);
+}
+
+}  // namespace
+
+ReadingRounds::ReadingRounds(EstimationProblem& problem) : problem_(problem) {
+  for (size_t unit = 0; unit < problem.units.size(); ++unit) {
+    Row row{unit, {}};
+    for (size_t leg = 0; leg < problem.units[unit].legs.size(); ++leg) {
+      const LegObservation& observation = problem.units[unit].legs[leg];
+      if (observation.reading_m) row.readings.push_back({leg, observation.reading_sigma_m});
+    }
+    count_ += static_cast<int>(row.readings.size());
+    if (!row.readings.empty()) rows_.push_back(std::move(row));
+  }
+}
+
+double ReadingRounds::Weight() const {
+  double sum = 0;
+  for (const Row& row : rows_) sum += row.weight * static_cast<double>(row.readings.size());
+  return sum;
+}
+
+double ReadingRounds::Squares() const {
+  double sum = 0;
+  for (const Row& row : rows_)
+    for (const Reading& reading : row.readings) sum += row.weight * reading.residual * reading.residual;
+  return sum;
+}
+
+double ReadingRounds::Rms() const {
+  const double weight = Weight();
+  return weight > 0 ? std::sqrt(Squares() / weight) : 0;
+}
+
+std::vector<OutlyingReading> ReadingRounds::Outlying() const {
+  constexpr double kHardlyCounts = 0.5;
+  std::vector<OutlyingReading> outlying;
+  for (const Row& row : rows_) {
+    if (row.weight >= kHardlyCounts) continue;
+    const PoseUnit& unit = problem_.units[row.unit];
+    const Reading& worst = row.readings[row.worst];
+    outlying.push_back({unit.image, unit.legs[worst.leg].leg, -row.worst_off * worst.sigma_m});
+  }
+  return outlying;
+}
+
+void ReadingRounds::Evaluate() {
+  for (Row& row : rows_) {
+    Linearised at = Linearise(row);
+    for (size_t i = 0; i < row.readings.size(); ++i)
+      row.readings[i].residual = at.residual[static_cast<Eigen::Index>(i)];
+    Predict(at, row);
+  }
+}
+
+// The readings' residuals in their given sigmas, with their derivatives by the pose, and what the edges say
+// of it.
+ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
+  const double at_rest[6] = {};
+  const PoseUnit& unit = problem_.units[row.unit];
+  const auto count = static_cast<Eigen::Index>(row.readings.size());
+  Linearised at{Eigen::VectorXd(count), Eigen::MatrixXd(count, 6), Matrix6d::Zero()};
+  Eigen::Index next = 0;
+  for (const LegObservation& observation : unit.legs) {
+    const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
+    const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
+    if (!r) continue;
+    const Eigen::Index edge_rows = r->residual.size() - (observation.reading_m ? 1 : 0);
+    at.edges.noalias() += r->d_pose.topRows(edge_rows).transpose() * r->d_pose.topRows(edge_rows);
+    if (!observation.reading_m) continue;
+    const double factor = observation.reading_sigma_m / row.readings[static_cast<size_t>(next)].sigma_m;
+    at.residual[next] = factor * r->residual[edge_rows];
+    at.d_pose.row(next++) = factor * r->d_pose.row(edge_rows);
+  }
+  return at;
+}
+
+// What the edges alone, without the readings, say that the readings should be: the pose follows the readings
+// by their present weight, which is taken back first.
+void ReadingRounds::Predict(const Linearised& at, Row& row) const {
+  const PoseUnit& unit = problem_.units[row.unit];
+  const Reading& first = row.readings.front();
+  const double present_weight = std::pow(first.sigma_m / unit.legs[first.leg].reading_sigma_m, 2);
+  const double ridge = 1e-9 * (1 + at.edges.trace());
+  const Eigen::MatrixXd by_edges =
+      at.d_pose * (at.edges + ridge * Matrix6d::Identity()).ldlt().solve(at.d_pose.transpose());
+  const Eigen::VectorXd off = at.residual + present_weight * by_edges * at.residual;
+  Eigen::MatrixXd covariance = by_edges;
+  covariance.diagonal().array() += 1;
+  row.square = off.dot(covariance.ldlt().solve(off));
+  const Eigen::VectorXd standardised = off.cwiseAbs().cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  Eigen::Index worst = 0;
+  standardised.maxCoeff(&worst);
+  row.worst = static_cast<size_t>(worst);
+  row.worst_off = off[worst];
+}
+
+void ReadingRounds::Loosen(double scale) {
+  constexpr double kLoose = 10;
+  for (const Row& row : rows_) SetSigmas(row, kLoose * std::max(scale, 1.0));
+}
+
+double ReadingRounds::Reweight() {
+  constexpr double kLeastWeight = 1e-8;
+  if (rows_.empty()) return 0;
+  std::vector<double> squares;
+  squares.reserve(rows_.size());
+  for (const Row& row : rows_) squares.push_back(row.square / static_cast<double>(row.readings.size()));
+  const double scale = std::max(MedianOf(std::move(squares)), 1.0);
+  double change = 0;
+  for (Row& row : rows_) {
+    const double before = row.weight;
+    row.weight = RobustWeight(AsNormal(row.square / scale, static_cast<double>(row.readings.size())));
+    change += std::abs(row.weight - before) * static_cast<double>(row.readings.size());
+    SetSigmas(row, 1 / std::sqrt(std::max(row.weight, kLeastWeight)));
+  }
+  return change;
+}
+
+void ReadingRounds::SetSigmas(const Row& row, double factor) {
+  for (const Reading& reading : row.readings)
+    problem_.units[row.unit].legs[reading.leg].reading_sigma_m = factor * reading.sigma_m;
+}
+
+}  // namespace legible
