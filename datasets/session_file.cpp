@@ -62,8 +62,12 @@ std::filesystem::path NamedFolder(const std::filesystem::path& folder, const Yam
 
 // The names of the images in a folder, sorted.
 std::set<std::string> ImagesIn(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::directory_iterator entries(folder, error);
+  if (error)
+    throw InputError(folder, 0, "cannot be listed: " + error.message(), "give it the right to be read");
   std::set<std::string> names;
-  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder)) {
+  for (const std::filesystem::directory_entry& entry : entries) {
     std::string extension = entry.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });

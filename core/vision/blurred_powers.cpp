@@ -7,7 +7,7 @@
 namespace legible {
 namespace {
 
-constexpr double kFrom = -8, kTo = 16;  // beyond, the step is 0 or the power's own expansion holds to 1e-7
+constexpr double kFrom = -8, kTo = 16;  // beyond, the step is 0 or the power's own expansion holds to 3e-6
 constexpr int kPerUnit = 64;
 constexpr int kEntries = static_cast<int>((kTo - kFrom) * kPerUnit) + 1;
 

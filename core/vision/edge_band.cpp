@@ -135,8 +135,10 @@ Levels LevelsOf(const EdgeBand& band, const BandCell& cell) {
 // Where the background or the leg changes within a few pixels along the edge (the horizon behind it, a
 // shadow's border across it), it changes across the edge as well, unseen.
 bool JumpsAt(const EdgeBand& band, const std::vector<Levels>& levels, size_t i, double largest) {
-  const size_t before = i > 0 && band.cells[i].follows_previous ? i - 1 : i;
-  const size_t after = i + 1 < levels.size() && band.cells[i + 1].follows_previous ? i + 1 : i;
+  const bool has_before = i > 0 && band.cells[i].follows_previous && levels[i - 1].IsMeasured();
+  const bool has_after =
+      i + 1 < levels.size() && band.cells[i + 1].follows_previous && levels[i + 1].IsMeasured();
+  const size_t before = has_before ? i - 1 : i, after = has_after ? i + 1 : i;
   return std::abs(levels[after].background.Mean() - levels[before].background.Mean()) > largest ||
          std::abs(levels[after].leg.Mean() - levels[before].leg.Mean()) > largest;
 }
@@ -146,7 +148,13 @@ bool JumpsAt(const EdgeBand& band, const std::vector<Levels>& levels, size_t i, 
 void DropUnevenCells(EdgeBand& band, std::vector<Levels>& levels) {
   std::vector<double> contrasts;
   contrasts.reserve(levels.size());
-  for (const Levels& of_cell : levels) contrasts.push_back(of_cell.Contrast());
+  for (const Levels& of_cell : levels)
+    if (of_cell.IsMeasured()) contrasts.push_back(of_cell.Contrast());
+  if (contrasts.empty()) {
+    band.cells.clear();
+    levels.clear();
+    return;
+  }
   const double typical = MedianOf(contrasts);
   const double largest_jump = std::max(kLargestRelativeJump * std::abs(typical), kLargestJump);
   std::vector<BandCell> kept;
@@ -205,7 +213,6 @@ EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoin
       CollectCell(image, a.point_px, b.point_px, outside_px, inside_px, cell, band.pixels);
       cell.last = band.pixels.size();
       band.cells.push_back(cell);
-      band.length_px += (b.point_px - a.point_px).norm();
     }
     previous = visible;
   }

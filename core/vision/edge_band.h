@@ -36,9 +36,6 @@ struct BandCell {
 struct EdgeBand {
   std::vector<BandPixel> pixels;
   std::vector<BandCell> cells;
-
-  // Length of all cells, px.
-  double length_px = 0;
 };
 
 EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,

@@ -151,7 +151,6 @@ void Sample(Work& work) {
   DropDisturbedSamples(work.result->observation.samples);
   work.result->observation.common_sigma_px = std::hypot(work.fit->sigma_px, kEdgeMisfit / work.fit->contrast);
   work.result->contrast = work.fit->contrast;
-  work.result->length_px = work.band.length_px;
 }
 
 void FitLine(const Camera& camera, Work& work) {

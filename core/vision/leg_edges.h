@@ -40,9 +40,8 @@ struct LegEdge {
   // Of `normal`, rank 2: by the samples' own sigmas; what moves all of them alike is the observation's
   // common_sigma_px.
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
-  double contrast = 0;   // grey levels, inside minus outside
-  double length_px = 0;  // measured
-  double rms_px = 0;     // of the samples about their line
+  double contrast = 0;  // grey levels, inside minus outside
+  double rms_px = 0;    // of the samples about their line
 };
 
 struct LegEdges {

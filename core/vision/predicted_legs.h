@@ -29,7 +29,7 @@ LegsInCamera PlaceLegs(const GoughStewart& robot, const Rigid3& camera_from_base
 // What hides a point of an edge, or spoils its surroundings.
 enum class EdgeObstacle {
   kNone,
-  kOtherLeg,  // in front of it, or so near behind it that its own edges disturb
+  kOtherLeg,  // crosses it: hides it, or disturbs it from behind by its own edges
   kPlatform,
   kJoint,  // the ball or fork at the leg's ends
   kImageBorder,

@@ -9,13 +9,11 @@ namespace legible {
 // How much of the leg's shading the model follows. All are linear in their coefficients; the edge's place x0
 // and the blur are not. With x = inside_px - x0, w the leg's half width and psi = acos(1 - x / w) the surface
 // angle from the outline (psi grows as sqrt(x): brightness is smooth in psi, not in x):
-//   kFlat      outside e0, inside c0
-//   kAngular   outside e0 + e1 x, inside c0 cos psi + c1 psi + a (1 - cos psi): Lambert's law with light a
-//   from
-//              everywhere, psi for its sine
-//   kKinked    as kAngular plus sum a_j max(0, x - x_j): kinks where a light's shadow begins on the surface,
-//   from
-//              psi = 0.65 rad on; nearer the outline a kink cannot be told from a shift of the edge
+//   kFlat     outside e0, inside c0
+//   kAngular  outside e0 + e1 x, inside c0 cos psi + c1 psi + a (1 - cos psi):
+//             Lambert's law with light a from everywhere, psi for its sine
+//   kKinked   as kAngular plus sum a_j max(0, x - x_j): kinks where a light's shadow begins on the surface,
+//             from psi = 0.65 rad on; nearer the outline a kink cannot be told from a shift of the edge
 // all convolved with a Gaussian of the given blur.
 enum class ShadingModel { kFlat, kAngular, kKinked };
 
