@@ -117,7 +117,7 @@ struct CellLevel {
     squares += value * value;
     count += 1;
   }
-  operator Level() const { return {sum, squares, count}; }
+  Level InDouble() const { return {sum, squares, count}; }
 };
 
 Levels LevelsOf(const EdgeBand& band, const BandCell& cell) {
@@ -129,7 +129,7 @@ Levels LevelsOf(const EdgeBand& band, const BandCell& cell) {
     else if (x >= kBackgroundFrom && x <= kBackgroundTo)
       background.Add(band.pixels[i].brightness);
   }
-  return {background, leg};
+  return {background.InDouble(), leg.InDouble()};
 }
 
 // Where the background or the leg changes within a few pixels along the edge (the horizon behind it, a
