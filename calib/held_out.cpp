@@ -118,15 +118,12 @@ HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& so
       fold_of_image.empty() ? 0 : *std::max_element(fold_of_image.begin(), fold_of_image.end()) + 1;
   HeldOut result;
   result.image_rms_px.resize(input.images.size());
-  std::vector<bool> has_outlying_reading(input.images.size());
-  for (const OutlyingReading& reading : solution.outlying_readings)
-    has_outlying_reading[static_cast<size_t>(reading.image)] = true;
   Squares all;
   for (int fold = 0; fold < folds; ++fold) {
     const LegCalibration trained = Train(input, solution, options, fold_of_image, fold);
     if (trained.status != CalibrationStatus::kConverged) continue;
     for (size_t i = 0; i < input.images.size(); ++i) {
-      if (fold_of_image[i] != fold || has_outlying_reading[i]) continue;
+      if (fold_of_image[i] != fold || !solution.ReadingsCountIn(i)) continue;
       const auto squares =
           PredictionError(input.images[i], trained, solution.camera_from_platform[i], options);
       if (!squares) continue;

@@ -47,10 +47,11 @@ class Calibrator {
   // False where the model cannot be evaluated any more.
   bool Run() {
     if (!CanEvaluate()) return false;
-    noise_ = UniformNoise({MedianScale(edges_), 1, 1});
+    const double scale = MedianScale(edges_);
+    noise_ = UniformNoise({scale, 1, 1});
     UpdateWeights(edges_, noise_);
     tags_.Start();
-    readings_.Loosen(MedianScale(edges_));
+    readings_.Loosen(scale);
     for (int round = 0; round < kMaxRounds; ++round) {
       const SolveSummary summary = SolveRound();
       if (!CanEvaluate()) return false;
@@ -278,6 +279,12 @@ LegCalibration WithoutEstimate(CalibrationStatus status, const std::string& mess
 }
 
 }  // namespace
+
+bool LegCalibration::ReadingsCountIn(size_t image) const {
+  return std::none_of(
+      outlying_readings.begin(), outlying_readings.end(),
+      [&](const OutlyingReading& reading) { return static_cast<size_t>(reading.image) == image; });
+}
 
 void LegCalibrationOptions::Check() const {
   if (!(default_joint_reading_sigma_m > 0))

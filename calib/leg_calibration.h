@@ -113,6 +113,8 @@ struct LegCalibration {
   int samples = 0;
   int iterations = 0;
   double covariance_s = 0;  // time that the observability took
+
+  bool ReadingsCountIn(size_t image) const;  // of the input: its readings are none of the outlying ones
 };
 
 // Maximum-likelihood estimate with outliers taken out by re-weighting and the noise re-estimated from the

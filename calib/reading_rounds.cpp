@@ -38,8 +38,7 @@ double ReadingRounds::Weight() const {
 
 double ReadingRounds::Squares() const {
   double sum = 0;
-  for (const Row& row : rows_)
-    for (const Reading& reading : row.readings) sum += row.weight * reading.residual * reading.residual;
+  for (const Row& row : rows_) sum += row.weight * row.residual.squaredNorm();
   return sum;
 }
 
@@ -62,31 +61,30 @@ std::vector<OutlyingReading> ReadingRounds::Outlying() const {
 
 void ReadingRounds::Evaluate() {
   for (Row& row : rows_) {
-    Linearised at = Linearise(row);
-    for (size_t i = 0; i < row.readings.size(); ++i)
-      row.readings[i].residual = at.residual[static_cast<Eigen::Index>(i)];
+    const Linearised at = Linearise(row);
+    row.residual = at.residual;
     Predict(at, row);
   }
 }
 
 // The readings' residuals in their given sigmas, with their derivatives by the pose, and what the edges say
-// of it.
+// of it. An image has readings of all its legs or of none; a leg that cannot be evaluated tells nothing.
 ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
   const double at_rest[6] = {};
   const PoseUnit& unit = problem_.units[row.unit];
   const auto count = static_cast<Eigen::Index>(row.readings.size());
-  Linearised at{Eigen::VectorXd(count), Eigen::MatrixXd(count, 6), Matrix6d::Zero()};
-  Eigen::Index next = 0;
-  for (const LegObservation& observation : unit.legs) {
+  Linearised at{Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, 6), Matrix6d::Zero()};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Reading& reading = row.readings[static_cast<size_t>(i)];
+    const LegObservation& observation = unit.legs[reading.leg];
     const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
     const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
     if (!r) continue;
-    const Eigen::Index edge_rows = r->residual.size() - (observation.reading_m ? 1 : 0);
+    const Eigen::Index edge_rows = r->residual.size() - 1;
     at.edges.noalias() += r->d_pose.topRows(edge_rows).transpose() * r->d_pose.topRows(edge_rows);
-    if (!observation.reading_m) continue;
-    const double factor = observation.reading_sigma_m / row.readings[static_cast<size_t>(next)].sigma_m;
-    at.residual[next] = factor * r->residual[edge_rows];
-    at.d_pose.row(next++) = factor * r->d_pose.row(edge_rows);
+    const double factor = observation.reading_sigma_m / reading.sigma_m;
+    at.residual[i] = factor * r->residual[edge_rows];
+    at.d_pose.row(i) = factor * r->d_pose.row(edge_rows);
   }
   return at;
 }

@@ -38,15 +38,15 @@ class ReadingRounds {
 
  private:
   struct Reading {
-    size_t leg = 0;       // observation of the unit
-    double sigma_m = 0;   // as given
-    double residual = 0;  // model less reading, in sigmas
+    size_t leg = 0;      // observation of the unit
+    double sigma_m = 0;  // as given
   };
   // Of one image.
   struct Row {
     size_t unit = 0;  // of the problem
     std::vector<Reading> readings;
-    double weight = 1;     // robust, [0, 1]
+    Eigen::VectorXd residual = {};  // model less reading, in the readings' sigmas
+    double weight = 1;              // robust, [0, 1]
     double square = 0;     // of how far all readings are off from what the edges alone predict, chi^2
     size_t worst = 0;      // the reading that is farthest off
     double worst_off = 0;  // in its sigma, model less reading

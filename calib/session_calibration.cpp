@@ -374,11 +374,7 @@ class SessionCalibrator {
   std::optional<Rigid3> PlatformPose(size_t in_estimation, size_t image, bool by_readings) const {
     if (!by_readings) return result_.calibration.camera_from_platform[in_estimation];
     const auto& base_from_platform = prediction_.base_from_platform[image];
-    const auto& outlying = result_.calibration.outlying_readings;
-    const bool is_wrong = std::any_of(outlying.begin(), outlying.end(), [&](const OutlyingReading& reading) {
-      return static_cast<size_t>(reading.image) == in_estimation;
-    });
-    if (!base_from_platform || is_wrong) return std::nullopt;
+    if (!base_from_platform || !result_.calibration.ReadingsCountIn(in_estimation)) return std::nullopt;
     return prediction_.camera_from_base * *base_from_platform;
   }
 

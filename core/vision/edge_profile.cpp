@@ -214,6 +214,11 @@ class Linearisation {
   NormalMatrix matrix_;  // of the coefficients: lower triangle
 };
 
+// Of the leg at its edge, grey levels.
+double LegLevel(ShadingModel model, const Coefficients& coefficients) {
+  return coefficients[model == ShadingModel::kFlat ? 1 : ShadingBasis::kLevel];
+}
+
 ProfileFit Summarise(const Linearisation::Step& step, int bins, ShadingModel model, double place_px,
                      const Coefficients& coefficients) {
   const bool flat = model == ShadingModel::kFlat;
@@ -221,7 +226,7 @@ ProfileFit Summarise(const Linearisation::Step& step, int bins, ShadingModel mod
   fit.model = model;
   fit.place_px = place_px;
   fit.coefficients = coefficients;
-  fit.contrast = coefficients[flat ? 1 : ShadingBasis::kLevel] - coefficients[0];
+  fit.contrast = LegLevel(model, coefficients) - coefficients[0];
   fit.squares = step.squares;
   const double freedom = bins - (flat ? 3.0 : 5.0);
   fit.chi2_per_bin = freedom > 0 ? step.data_squares / freedom : 0;
@@ -256,8 +261,7 @@ std::optional<ProfileFit> Fit(Linearisation& at, ShadingModel model, const Coeff
     }
     *coefficients += step.change.head(n);
     if (std::abs(moved) < kSteady_px) {
-      const double leg_level = (*coefficients)[model == ShadingModel::kFlat ? 1 : ShadingBasis::kLevel];
-      if (leg_level < kDarkest) return std::nullopt;
+      if (LegLevel(model, *coefficients) < kDarkest) return std::nullopt;
       return Summarise(step, at.bins(), model, place, *coefficients);
     }
   }
@@ -343,7 +347,7 @@ std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double st
       }));
   if (plain && plain->squares < bins + std::sqrt(2 * bins)) return plain;
   auto kinked = FitProfile(profile, ShadingModel::kKinked, start, options);
-  if (!kinked) kinked = FitProfile(profile, ShadingModel::kKinked, start_px, options);
+  if (!kinked && is_near) kinked = FitProfile(profile, ShadingModel::kKinked, start_px, options);
   if (!kinked) return plain;
   const double misfit = std::max(kinked->chi2_per_bin, 1.0);
   const auto [best, of_best] = simpler(misfit);

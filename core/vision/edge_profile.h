@@ -63,9 +63,9 @@ struct BlurEvidence {
 BlurEvidence EvidenceOnBlur(const EdgeProfile& profile, const ProfileFit& fit,
                             const ProfileFitOptions& options);
 
-// The simplest model that explains the profile: flat first, then the others
-// from there; a richer model must lower the squares (relative to the richest's misfit) by more than the
-// Bayesian information criterion asks for its coefficients.
+// The simplest model that explains the profile: flat first, then the others from there; a richer model must
+// lower the squares (relative to the richest's misfit) by more than the Bayesian information criterion asks
+// for its coefficients.
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options);
 
