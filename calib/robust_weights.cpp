@@ -82,11 +82,14 @@ struct VarianceFactor {
     count += weight * other.count;
   }
   // Square root of the factor; `share`: of the values' squares that the fitted parameters left in the
-  // residuals.
+  // residuals. Where that is little, it is not an even share (a leg whose direction is free takes up what
+  // its two edges have in common), and the factor is not below what the edges say of themselves.
   double Sigma(double share) const {
-    constexpr double kLeastFactor = 0.04;  // a fifth of what the edges say of themselves
+    constexpr double kEnoughLeft = 2.0 / 3;
+    constexpr double kLeastFactor = 0.04;
+    const double least = share < kEnoughLeft ? 1 : kLeastFactor;
     const double values = excess / share / kCommonVarianceOfStandardNormal;
-    return count > 0 ? std::sqrt(std::max(values - noise, kLeastFactor * count) / count) : 1;
+    return count > 0 ? std::sqrt(std::max(values / count - noise / count, least)) : 1;
   }
 };
 

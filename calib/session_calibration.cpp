@@ -25,7 +25,10 @@ constexpr double kUnknownLensBend_px = 12;
 constexpr double kSearchAfterScouts_px = 5;
 constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
-constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
+// How far off the legs may be where tags gave the camera's pose, and where a tape measure did, to 3 cm and 3
+// deg.
+constexpr double kTagPoseRange_px = 30;
+constexpr double kTapePoseRange_px = 120;
 
 // The camera with another lens model: coefficients that the model lacks are 0.
 Camera WithLens(Camera camera, LensModel lens) {
@@ -205,7 +208,7 @@ class SessionCalibrator {
     const size_t scout_count = std::min(count_, static_cast<size_t>(options_.scouts));
     for (size_t i = 0; i < scout_count; ++i) scouts.push_back(i * count_ / scout_count);
     LegLockOptions lock;
-    if (result_.first_pose_from != "camera.yaml") lock.range_px = kTagPoseRange_px;
+    lock.range_px = result_.first_pose_from == "camera.yaml" ? kTapePoseRange_px : kTagPoseRange_px;
     LegEdgeOptions rough_edges = options_.edges;
     rough_edges.lock = lock;
     rough_edges.rough_only = true;

@@ -162,7 +162,7 @@ class Linearisation {
     for (int i = 0; i < bins_; ++i)
       by_blur[i] = Column(kWeight)[i] * basis_.SlopeByBlur(Column(kPlace)[i], coefficients);
     Unknowns cross(n + 1);
-    cross.head(n).noalias() = Values().transpose() * by_blur;
+    for (Eigen::Index i = 0; i < n; ++i) cross[i] = Values().col(i).dot(by_blur);
     cross[n] = Column(kByPlace).dot(by_blur);
     const Unknowns followed = equations.factor.solve(cross);
     return {by_blur.squaredNorm() - cross.dot(followed),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace {
 constexpr int kProfiles = 24;         // a leg
 constexpr double kMaxContrast = 12;   // grey levels per px: a stronger edge counts no more than this
 constexpr double kCommonStep_px = 3;  // of the search for the common shift, about the blurred edge's width
+constexpr int kCell = 1;              // steps to either side of its centre that a cell of shifts covers
 constexpr int kRollSteps = 3, kScaleSteps = 3;  // to either side of the prediction
 constexpr double kLeastShareOfProfiles = 0.35;  // that must show both edges
 
@@ -27,8 +29,9 @@ struct Profile {
   Eigen::Vector2d centre_px;
   Eigen::Vector2d across_px;  // unit, towards edge 2
   double share = 0;           // along the axis
-  std::vector<float>
-      leg_likeness;  // at shifts -reach … reach: the weaker of the two edges' contrasts, clipped
+  // At shifts -reach … reach: the weaker of the two edges' contrasts, clipped; and the largest of these
+  // within a cell of shifts about each.
+  std::vector<float> leg_likeness, most_in_cell;
 };
 using LegProfiles = std::vector<Profile>;
 
@@ -42,12 +45,18 @@ class ProfileTable {
 
   const LegProfiles& Of(size_t leg) const { return legs_[leg]; }
 
-  float At(const Profile& profile, double shift_px) const {
-    const int index = static_cast<int>(std::lround(shift_px)) + reach_;
-    return index < 0 || index > 2 * reach_ ? 0.0f : profile.leg_likeness[static_cast<size_t>(index)];
+  float At(const Profile& profile, double shift_px) const { return Look(profile.leg_likeness, shift_px); }
+  // No smaller than At() anywhere in the cell of shifts about one that is `shift_px` across the profile.
+  float MostInCell(const Profile& profile, double shift_px) const {
+    return Look(profile.most_in_cell, shift_px);
   }
 
  private:
+  float Look(const std::vector<float>& values, double shift_px) const {
+    const int index = static_cast<int>(std::lround(shift_px)) + reach_;
+    return index < 0 || index > 2 * reach_ ? 0.0f : values[static_cast<size_t>(index)];
+  }
+
   void AddLeg(const GrayImage& blurred, const std::array<PredictedEdge, 2>& edges, double polarity,
               LegProfiles& profiles) const {
     const size_t count = std::min(edges[0].points.size(), edges[1].points.size());
@@ -56,9 +65,10 @@ class ProfileTable {
       const double share = 0.08 + 0.84 * i / (kProfiles - 1);
       const auto at = static_cast<size_t>(std::lround(share * static_cast<double>(count - 1)));
       const PredictedEdgePoint &first = edges[0].points[at], &second = edges[1].points[at];
-      Profile profile{(first.point_px + second.point_px) / 2, second.normal_px, share, {}};
+      Profile profile{(first.point_px + second.point_px) / 2, second.normal_px, share, {}, {}};
       const double half_width = std::abs(second.normal_px.dot(second.point_px - first.point_px)) / 2;
       FillLikeness(blurred, half_width, polarity, profile);
+      FillMostInCell(profile);
       profiles.push_back(std::move(profile));
     }
   }
@@ -74,6 +84,17 @@ class ProfileTable {
       const double weaker = std::min(slope(u - half_width), -slope(u + half_width));
       profile.leg_likeness.push_back(static_cast<float>(std::clamp(weaker, 0.0, kMaxContrast)));
     }
+  }
+
+  static void FillMostInCell(Profile& profile) {
+    // A cell's corner is this far from its centre, whichever way the profile lies; one for the rounding.
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(2.0) * kCell * kCommonStep_px)) + 1;
+    const std::vector<float>& likeness = profile.leg_likeness;
+    const auto count = static_cast<std::ptrdiff_t>(likeness.size());
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+      profile.most_in_cell.push_back(
+          *std::max_element(likeness.begin() + std::max<std::ptrdiff_t>(i - reach, 0),
+                            likeness.begin() + std::min(i + reach + 1, count)));
   }
 
   int reach_;
@@ -93,10 +114,12 @@ struct CommonMove {
   }
 };
 
-double CommonScore(const ProfileTable& table, const CommonMove& move) {
+using Likeness = float (ProfileTable::*)(const Profile&, double) const;
+
+double CommonScore(const ProfileTable& table, const CommonMove& move, Likeness likeness) {
   double sum = 0;
   for (size_t leg = 0; leg < kLegCount; ++leg)
-    for (const Profile& profile : table.Of(leg)) sum += table.At(profile, move.Across(profile));
+    for (const Profile& profile : table.Of(leg)) sum += (table.*likeness)(profile, move.Across(profile));
   return sum;
 }
 
@@ -105,20 +128,37 @@ struct CommonBest {
   double score = -1;
 };
 
+// Calls visit(move) for every roll and growth, and for shifts in cells whose centres cover the range.
+template <typename F>
+void ForEachCell(const Eigen::Vector2d& centre, const LegLockOptions& options, F visit) {
+  const double side_px = (2 * kCell + 1) * kCommonStep_px;
+  const int cells = static_cast<int>(std::ceil(options.range_px / side_px));
+  for (int roll = -kRollSteps; roll <= kRollSteps; ++roll)
+    for (int growth = -kScaleSteps; growth <= kScaleSteps; ++growth)
+      for (int dx = -cells; dx <= cells; ++dx)
+        for (int dy = -cells; dy <= cells; ++dy)
+          visit(CommonMove{side_px * Eigen::Vector2d(dx, dy), roll * options.roll_range_rad / kRollSteps,
+                           growth * options.scale_range / kScaleSteps, centre});
+}
+
+// Branch and bound: the best of the cells' centres first, then those cells that could hold a better one.
 CommonBest SearchCommonMove(const ProfileTable& table, const Eigen::Vector2d& centre,
                             const LegLockOptions& options) {
   CommonBest best;
-  const int steps = static_cast<int>(std::ceil(options.range_px / kCommonStep_px));
-  for (int roll = -kRollSteps; roll <= kRollSteps; ++roll)
-    for (int growth = -kScaleSteps; growth <= kScaleSteps; ++growth)
-      for (int dx = -steps; dx <= steps; ++dx)
-        for (int dy = -steps; dy <= steps; ++dy) {
-          const CommonMove move{kCommonStep_px * Eigen::Vector2d(dx, dy),
-                                roll * options.roll_range_rad / kRollSteps,
-                                growth * options.scale_range / kScaleSteps, centre};
-          const double score = CommonScore(table, move);
-          if (score > best.score) best = {move, score};
-        }
+  const auto keep_better = [&](const CommonMove& move) {
+    const double score = CommonScore(table, move, &ProfileTable::At);
+    if (score > best.score) best = {move, score};
+  };
+  ForEachCell(centre, options, keep_better);
+  ForEachCell(centre, options, [&](CommonMove move) {
+    if (CommonScore(table, move, &ProfileTable::MostInCell) <= best.score) return;
+    const Eigen::Vector2d middle = move.shift_px;
+    for (int dx = -kCell; dx <= kCell; ++dx)
+      for (int dy = -kCell; dy <= kCell; ++dy) {
+        move.shift_px = middle + kCommonStep_px * Eigen::Vector2d(dx, dy);
+        keep_better(move);
+      }
+  });
   return best;
 }
 

@@ -156,6 +156,7 @@ TEST(Rigid3, DisplacedKeepsTheRotationAUnitOverManySteps) {
 
 std::vector<Eigen::Vector3d> Transformed(const Rigid3& b_from_a, const std::vector<Eigen::Vector3d>& x_in_a) {
   std::vector<Eigen::Vector3d> x_in_b;
+  x_in_b.reserve(x_in_a.size());
   for (const Eigen::Vector3d& x : x_in_a) x_in_b.push_back(b_from_a * x);
   return x_in_b;
 }
