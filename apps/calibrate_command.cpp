@@ -9,6 +9,7 @@
 #include "apps/calibration_report.h"
 #include "apps/calibration_run.h"
 #include "apps/console_summary.h"
+#include "apps/judgement.h"
 #include "apps/output_folder.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -114,7 +115,7 @@ void Write(const CalibrationRun& run, const std::string& json, const std::string
 
 void Print(const CalibrationRun& run, const FoundParameters& found, const std::string& json,
            const Console& console) {
-  console.err << WarningsText(run);
+  console.err << WarningsText(Warnings(run, found));
   if (run.settings.prints_json)
     console.out << json;
   else

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/judgement.h"
 #include "apps/program.h"
 
 namespace legible {
@@ -95,7 +96,10 @@ ordered_json HeldOutJson(const CalibrationRun& run) {
   ordered_json images = ordered_json::array();
   for (const ImageOutcome& image : run.result.images)
     if (image.held_out_rms_px) images.push_back({{"name", image.name}, {"rms_px", *image.held_out_rms_px}});
-  return {{"rms_px", OrNull(run.result.held_out_rms_px)}, {"folds", run.options.folds}, {"images", images}};
+  return {{"rms_px", OrNull(run.result.held_out_rms_px)},
+          {"folds", run.options.folds},
+          {"folds_failed", run.result.held_out_folds_failed},
+          {"images", images}};
 }
 
 ordered_json TagChecksJson(const std::vector<TagCheck>& checks) {
@@ -178,6 +182,7 @@ ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& f
   ordered_json json = {{"status", ToString(calibration.status)},
                        {"message", calibration.message},
                        {"assumption", AssumptionText(run.settings, run.session.known)}};
+  json["warnings"] = Warnings(run, found);
   AddFit(run, json);
   AddObservations(run, json);
   AddParameters(run, found, json);

@@ -6,14 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/calibration_json.h"
+#include "apps/prior_pulls.h"
 #include "apps/program.h"
 
 namespace legible {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kAxes[] = {"x", "y", "z"};
 
 // Of the parameters that were estimated and that a number may be given for.
 json CorrelationsJson(const LegCalibration& calibration) {
@@ -35,57 +34,15 @@ json CorrelationsJson(const LegCalibration& calibration) {
   return {{"names", names}, {"matrix", matrix}};
 }
 
-// Collects what was said beforehand of parameters that were estimated, and what was found.
-class PriorList {
- public:
-  void Add(const std::string& name, double value, const std::optional<double>& sigma, double found,
-           double found_sigma) {
-    if (!sigma || !(found_sigma > 0)) return;  // nothing said; held, or not known
-    list_.push_back({{"name", name},
-                     {"value", value},
-                     {"sigma", *sigma},
-                     {"found", found},
-                     {"pull_sigma", (found - value) / *sigma}});
-  }
-  void AddPoint(const std::string& name, const Eigen::Vector3d& value, const std::optional<double>& sigma,
-                const Eigen::Vector3d& found, const Eigen::Vector3d& found_sigma) {
-    for (int i = 0; i < 3; ++i) Add(name + "." + kAxes[i], value[i], sigma, found[i], found_sigma[i]);
-  }
-  json Take() { return std::move(list_); }
-
- private:
-  json list_ = json::array();
-};
-
-void AddCameraPriors(const CalibrationRun& run, const FoundParameters& found, PriorList& priors) {
-  const PriorKnowledge& known = run.session.known;
-  const CameraParameters guess = ParametersOf(run.session.camera);
-  for (int i = 0; i < kCameraParameterCount; ++i) {
-    const auto& sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
-    priors.Add(ParameterName(i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
-  }
-}
-
-// The base joints are known up to where the base as a whole is, and the base frame is the rigid fit to the
-// drawing: in that frame found minus drawn is what is compared with their sigma. The same holds for the
-// platform.
-json PriorsJson(const CalibrationRun& run, const FoundParameters& found) {
-  PriorList priors;
-  AddCameraPriors(run, found, priors);
-  const PriorKnowledge& known = run.session.known;
-  for (size_t i = 0; i < kLegCount; ++i) {
-    const Leg& drawn = run.session.robot.legs[i];
-    const FoundLeg& leg = found.legs[i];
-    const std::string name = fmt::format("legs[{}].", i + 1);
-    priors.AddPoint(name + "base_joint_m", drawn.base_joint_m, known.base_joint_m, leg.base_joint_m,
-                    leg.sigma.base_joint_m);
-    priors.AddPoint(name + "platform_joint_m", drawn.platform_joint_m, known.platform_joint_m,
-                    leg.platform_joint_m, leg.sigma.platform_joint_m);
-    priors.Add(name + "radius_m", drawn.radius_m, known.radius_m, leg.radius_m, leg.sigma.radius_m);
-    priors.Add(name + "joint_offset_m", drawn.joint_offset_m, known.joint_offset_m, leg.joint_offset_m,
-               leg.sigma.joint_offset_m);
-  }
-  return priors.Take();
+json PriorsJson(const std::vector<PriorPull>& pulls) {
+  json list = json::array();
+  for (const PriorPull& one : pulls)
+    list.push_back({{"name", one.name},
+                    {"value", one.value},
+                    {"sigma", one.sigma},
+                    {"found", one.found},
+                    {"pull_sigma", one.pull}});
+  return list;
 }
 
 json ReadingsCheck(const CalibrationRun& run) {
@@ -138,7 +95,8 @@ json ReportData(const CalibrationRun& run, const FoundParameters& found,
                {"session", SessionPath(run)},
                {"images", images},
                {"correlations", CorrelationsJson(run.result.calibration)},
-               {"priors", PriorsJson(run, found)},
+               {"priors", PriorsJson(PriorPulls(run, found))},
+               {"contradicting_pull_sigma", kContradictingPull},
                {"checks", ChecksJson(run)},
                {"options", OptionsJson(run)}};
   data["calibration"] = calibration;

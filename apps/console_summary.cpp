@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -9,7 +10,12 @@
 namespace legible {
 namespace {
 
-constexpr int kTooFewImages = 4;         // whatever is open, more of them come first
+constexpr int kTooFewImages = 4;  // whatever is open, more of them come first
+constexpr char kLegsNotFound[] =
+    "the legs were not found where the session puts them. Usual causes: camera_from_base or camera_matrix in "
+    "camera.yaml far off (tags on the base help), legs in another order in joints.csv than in robot.yaml, "
+    "lengths "
+    "not in metres, little contrast between legs and background.";
 constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json has all
 
 std::string Capitalised(std::string text) {
@@ -111,6 +117,14 @@ std::string LegTable(const CalibrationRun& run, const FoundParameters& found) {
   return text;
 }
 
+// The first look failed although there was enough to look at.
+bool WereLegsNotFound(const CalibrationRun& run) {
+  const auto& images = run.result.images;
+  const auto with_edges = std::count_if(images.begin(), images.end(),
+                                        [](const ImageOutcome& image) { return !image.edges.edges.empty(); });
+  return !run.result.first_look.empty() && with_edges >= kTooFewImages;
+}
+
 std::string OpenSentences(const std::vector<WeakDirection>& open) {
   std::string text;
   for (size_t i = 0; i < std::min(open.size(), kSentencesPrinted); ++i)
@@ -137,6 +151,7 @@ std::string WhyThereIsNoModel(const CalibrationRun& run) {
   const LegCalibration& calibration = run.result.calibration;
   if (calibration.status == CalibrationStatus::kConverged) return "";
   const int used = CountUsedImages(run.result);
+  if (WereLegsNotFound(run)) return fmt::format("legible: no model: {}\n", kLegsNotFound);
   if (used < kTooFewImages)
     return fmt::format(
         "legible: no model: {} could be used, too few to determine the parameters; give some forty in "
@@ -148,27 +163,9 @@ std::string WhyThereIsNoModel(const CalibrationRun& run) {
   return fmt::format("legible: no model: {}.\n", calibration.message);
 }
 
-std::string WarningsText(const CalibrationRun& run) {
+std::string WarningsText(const std::vector<std::string>& warnings) {
   std::string text;
-  for (size_t i = 0; i < run.result.images.size(); ++i)
-    if (const std::string reason = run.result.images[i].left_out; !reason.empty())
-      text +=
-          fmt::format("legible: warning: {}: left out: {}\n", run.session.images[i].file.string(), reason);
-  for (const std::string& sentence : run.result.misfit_tags)
-    text += fmt::format("legible: warning: {}\n", sentence);
-  if (!run.result.first_look.empty())
-    text += fmt::format(
-        "legible: warning: a first look at the legs did not refine where the camera is ({}): the edges were "
-        "searched "
-        "from {} as it stands\n",
-        run.result.first_look, run.result.first_pose_from);
-  for (const std::string& sentence : OutlyingReadingSentences(run))
-    text += fmt::format("legible: warning: joints.csv: {}\n", sentence);
-  if (!run.session.unlisted_images.empty())
-    text +=
-        fmt::format("legible: warning: {} of the session's folder {} no row in joints.csv and took no part\n",
-                    Plural(static_cast<int>(run.session.unlisted_images.size()), "image"),
-                    run.session.unlisted_images.size() == 1 ? "has" : "have");
+  for (const std::string& sentence : warnings) text += fmt::format("legible: warning: {}\n", sentence);
   return text;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/calibration_run.h"
 #include "apps/found_parameters.h"
@@ -17,7 +18,7 @@ std::string FilesText(const CalibrationRun& run);
 // Why there is no model, in sentences; empty where there is one.
 std::string WhyThereIsNoModel(const CalibrationRun& run);
 
-// A line for each image of the session that took no part.
-std::string WarningsText(const CalibrationRun& run);
+// A line for each warning.
+std::string WarningsText(const std::vector<std::string>& warnings);
 
 }  // namespace legible

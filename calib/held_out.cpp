@@ -121,7 +121,10 @@ HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& so
   Squares all;
   for (int fold = 0; fold < folds; ++fold) {
     const LegCalibration trained = Train(input, solution, options, fold_of_image, fold);
-    if (trained.status != CalibrationStatus::kConverged) continue;
+    if (trained.status != CalibrationStatus::kConverged) {
+      ++result.folds_failed;
+      continue;
+    }
     for (size_t i = 0; i < input.images.size(); ++i) {
       if (fold_of_image[i] != fold || !solution.ReadingsCountIn(i)) continue;
       const auto squares =

@@ -13,6 +13,7 @@ namespace legible {
 struct HeldOut {
   std::optional<double> rms_px;                     // over all samples of all images that have a figure
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
+  int folds_failed = 0;                             // in which the rest did not converge
 };
 
 // Which images are left out together: every folds-th, or, with a seed, as many at random. folds > 0.

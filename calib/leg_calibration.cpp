@@ -17,6 +17,7 @@ namespace {
 constexpr int kMaxRounds = 12;          // of solving and re-weighting; the last keeps its weights
 constexpr int kRoundsByMedian = 2;      // the scale comes from the median until the worst outliers are gone
 constexpr double kSteadyScale = 1e-3;   // relative change of the noise at which the rounds end
+constexpr double kSteadyCommon = 1e-2;  // of the edges' shift and tilt, which some hundred edges tell to 5 %
 constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
 constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
 
@@ -56,7 +57,8 @@ class Calibrator {
       const SolveSummary summary = SolveRound();
       if (!CanEvaluate()) return false;
       if (round + 1 == kMaxRounds) return summary.converged;
-      if (Reweight(round) && summary.converged) return true;
+      weights_steady_ = Reweight(round);
+      if (weights_steady_ && summary.converged) return true;
     }
     return false;
   }
@@ -109,6 +111,7 @@ class Calibrator {
   NoiseByEdge noise_ = UniformNoise({});
   int samples_ = 0;
   int iterations_ = 0;
+  bool weights_steady_ = false;
 };
 
 void Calibrator::AddEdges() {
@@ -192,10 +195,13 @@ bool Calibrator::Reweight(int round) {
   double change = tags_.Reweight(round < kRoundsByMedian) + readings_.Reweight();
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
-  const auto steady = [](double a, double b) { return std::abs(a - b) <= kSteadyScale * std::max(a, b); };
+  const auto steady = [](double a, double b, double share = kSteadyScale) {
+    return std::abs(a - b) <= share * std::max(a, b);
+  };
   const EdgeNoise now = MeanNoise(noise_);
-  return round > kRoundsByMedian && steady(before.sample, now.sample) && steady(before.shift, now.shift) &&
-         steady(tag_sigma_before_px, tags_.sigma_px()) && change <= kSteadyWeight * samples_;
+  return round > kRoundsByMedian && steady(before.sample, now.sample) &&
+         steady(before.shift, now.shift, kSteadyCommon) && steady(before.tilt, now.tilt, kSteadyCommon) &&
+         steady(tag_sigma_before_px, tags_.sigma_px(), kSteadyCommon) && change <= kSteadyWeight * samples_;
 }
 
 double Calibrator::Rms() const {
@@ -262,6 +268,7 @@ LegCalibration Calibrator::Result() const {
   result.outlying_readings = readings_.Outlying();
   result.samples = samples_;
   result.iterations = iterations_;
+  result.weights_steady = weights_steady_;
   const Stopwatch of_covariance;
   result.observability = AnalyseObservability(problem_);
   result.covariance_s = of_covariance.Seconds();
@@ -285,6 +292,8 @@ bool LegCalibration::ReadingsCountIn(size_t image) const {
       outlying_readings.begin(), outlying_readings.end(),
       [&](const OutlyingReading& reading) { return static_cast<size_t>(reading.image) == image; });
 }
+
+double LegCalibration::Misfit() const { return std::max({noise.sample, noise.shift, noise.tilt}); }
 
 void LegCalibrationOptions::Check() const {
   if (!(default_joint_reading_sigma_m > 0))

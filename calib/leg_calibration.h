@@ -112,9 +112,13 @@ struct LegCalibration {
   double tag_sigma_px = 0;  // of a coordinate of a corner, as the residuals show it; 0 without tags
   int samples = 0;
   int iterations = 0;
-  double covariance_s = 0;  // time that the observability took
+  bool weights_steady = true;  // false: noise and weights still changed when the rounds were used up
+  double covariance_s = 0;     // time that the observability took
 
   bool ReadingsCountIn(size_t image) const;  // of the input: its readings are none of the outlying ones
+  // By what factor the edges lie farther from the model than their own sigmas say; at most about 1 where
+  // model and sigmas are right.
+  double Misfit() const;
 };
 
 // Maximum-likelihood estimate with outliers taken out by re-weighting and the noise re-estimated from the

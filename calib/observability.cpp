@@ -14,7 +14,11 @@
 namespace legible {
 namespace {
 
-constexpr double kUnknown = 1.0 / 3;  // relative sigma from which a combination counts as not known
+// Relative sigma from which a combination counts as not known. Where one does, so does what is known little
+// better: the analysis is linear, about a place that is arbitrary along what is open.
+constexpr double kUnknown = 1.0 / 3;
+constexpr double kUnknownWithOthers = 0.05;
+constexpr double kShadingSize_px = 100;  // so large that shading never counts as unknown: it has its prior
 constexpr double kNumericalZero =
     1e-13;                         // of the largest eigenvalue: below it there is no information at all
 constexpr double kTouched = 1e-3;  // share of an unobservable direction that spoils a parameter
@@ -46,7 +50,7 @@ Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {
         .setConstant(leg.segment<3>(leg_parameter::kPlatformJoint).norm());
     of_leg[leg_parameter::kRadius] = leg[leg_parameter::kRadius];
     of_leg[leg_parameter::kJointOffset] = leg.segment<3>(leg_parameter::kPlatformJoint).norm();
-    of_leg.segment<4>(leg_parameter::kShading).setConstant(1);
+    of_leg.segment<4>(leg_parameter::kShading).setConstant(kShadingSize_px);
   }
   return sizes;
 }
@@ -137,6 +141,21 @@ double SigmaAlong(const Eigen::VectorXd& direction, const Eigen::MatrixXd& relat
   return information > zero ? 1 / std::sqrt(information) : std::numeric_limits<double>::infinity();
 }
 
+bool IsOfDistortionAlone(const Eigen::VectorXd& direction) {
+  constexpr int kFirst = 4;
+  return direction.segment(kFirst, kCameraParameterCount - kFirst).norm() > 0.99 * direction.norm();
+}
+
+std::string DescribeUnnamed(const Eigen::VectorXd& direction, double relative_sigma) {
+  return fmt::format(
+      "a combination of {} is {}: {}", LargestEntries(direction),
+      relative_sigma < 1 ? fmt::format("known only to {:.0f} % of its size", 100 * relative_sigma)
+                         : "not determined",
+      IsOfDistortionAlone(direction)
+          ? "say how well the distortion is known, or take a lens model with fewer coefficients"
+          : "hold one of them fixed or say how well it is known");
+}
+
 // Names the null space: first the freedoms that have a name, then what is left of it by its largest entries.
 std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, const Eigen::VectorXd& sizes,
                                             const Eigen::MatrixXd& relative, double zero,
@@ -156,10 +175,7 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
     space = space * q.rightCols(inside.size() - 1);
   }
   for (Eigen::Index i = 0; i < space.cols(); ++i)
-    add(fmt::format(
-            "a combination of {} is not determined: hold one of them fixed or say how well it is known",
-            LargestEntries(space.col(i))),
-        space.col(i));
+    add(DescribeUnnamed(space.col(i), SigmaAlong(space.col(i), relative, zero)), space.col(i));
   return result;
 }
 
@@ -198,7 +214,8 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
     return values[i] > zero ? 1 / std::sqrt(values[i]) : std::numeric_limits<double>::infinity();
   };
   Eigen::Index unknown = 0;
-  while (unknown < count && sigma(unknown) > kUnknown) ++unknown;
+  const double limit = count > 0 && sigma(0) > kUnknown ? kUnknownWithOthers : kUnknown;
+  while (unknown < count && sigma(unknown) > limit) ++unknown;
   result.unobservable = NameUnobservable(problem, sizes, relative, zero, vectors.leftCols(unknown));
   for (Eigen::Index i = unknown; i < count && result.weak.size() < kWeakDirectionsReported; ++i)
     if (!IsMostlyShading(vectors.col(i)))

@@ -18,9 +18,10 @@ struct WeakDirection {
 };
 
 struct Observability {
-  std::vector<WeakDirection> unobservable;  // known no better than to a third of their own size
-  std::vector<WeakDirection> weak;          // the three least certain of the rest
-  Eigen::MatrixXd covariance;  // kSharedParameterCount square, SI units and px, in the platform gauge
+  // Known no better than to a third of their own size, or, where one is, than to a twentieth.
+  std::vector<WeakDirection> unobservable;
+  std::vector<WeakDirection> weak;  // the three least certain of the rest
+  Eigen::MatrixXd covariance;       // kSharedParameterCount square, SI units and px, in the platform gauge
   std::vector<bool>
       known;  // per parameter: held, or untouched by an unobservable direction; a joint as a whole
 };

@@ -81,25 +81,30 @@ ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
     const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
     if (!r) continue;
     const Eigen::Index edge_rows = r->residual.size() - 1;
-    at.edges.noalias() += r->d_pose.topRows(edge_rows).transpose() * r->d_pose.topRows(edge_rows);
+    at.image.noalias() += r->d_pose.topRows(edge_rows).transpose() * r->d_pose.topRows(edge_rows);
     const double factor = observation.reading_sigma_m / reading.sigma_m;
     at.residual[i] = factor * r->residual[edge_rows];
     at.d_pose.row(i) = factor * r->d_pose.row(edge_rows);
   }
+  for (const TagObservation& tag : unit.tags) {
+    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+                               unit.camera_from_platform, Vector6d::Zero(), tag);
+    if (r) at.image.noalias() += r->d_pose.transpose() * r->d_pose;
+  }
   return at;
 }
 
-// What the edges alone, without the readings, say that the readings should be: the pose follows the readings
+// What the image alone, without the readings, say that the readings should be: the pose follows the readings
 // by their present weight, which is taken back first.
 void ReadingRounds::Predict(const Linearised& at, Row& row) const {
   const PoseUnit& unit = problem_.units[row.unit];
   const Reading& first = row.readings.front();
   const double present_weight = std::pow(first.sigma_m / unit.legs[first.leg].reading_sigma_m, 2);
-  const double ridge = 1e-9 * (1 + at.edges.trace());
-  const Eigen::MatrixXd by_edges =
-      at.d_pose * (at.edges + ridge * Matrix6d::Identity()).ldlt().solve(at.d_pose.transpose());
-  const Eigen::VectorXd off = at.residual + present_weight * by_edges * at.residual;
-  Eigen::MatrixXd covariance = by_edges;
+  const double ridge = 1e-9 * (1 + at.image.trace());
+  const Eigen::MatrixXd by_image =
+      at.d_pose * (at.image + ridge * Matrix6d::Identity()).ldlt().solve(at.d_pose.transpose());
+  const Eigen::VectorXd off = at.residual + present_weight * by_image * at.residual;
+  Eigen::MatrixXd covariance = by_image;
   covariance.diagonal().array() += 1;
   row.square = off.dot(covariance.ldlt().solve(off));
   const Eigen::VectorXd standardised = off.cwiseAbs().cwiseQuotient(covariance.diagonal().cwiseSqrt());

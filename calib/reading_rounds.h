@@ -47,14 +47,14 @@ class ReadingRounds {
     std::vector<Reading> readings;
     Eigen::VectorXd residual = {};  // model less reading, in the readings' sigmas
     double weight = 1;              // robust, [0, 1]
-    double square = 0;     // of how far all readings are off from what the edges alone predict, chi^2
-    size_t worst = 0;      // the reading that is farthest off
-    double worst_off = 0;  // in its sigma, model less reading
+    double square = 0;              // of how far all readings are off from what edges and tags predict, chi^2
+    size_t worst = 0;               // the reading that is farthest off
+    double worst_off = 0;           // in its sigma, model less reading
   };
   struct Linearised {
     Eigen::VectorXd residual;
     Eigen::MatrixXd d_pose;
-    Matrix6d edges;  // their information on the pose
+    Matrix6d image;  // information of edges and tags on the pose
   };
   Linearised Linearise(const Row& row) const;
   void Predict(const Linearised& at, Row& row) const;

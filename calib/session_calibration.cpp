@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -25,6 +26,8 @@ constexpr double kUnknownLensBend_px = 12;
 constexpr double kSearchAfterScouts_px = 5;
 constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
+constexpr double kGrossMisfit = 10;  // no cylinder's shading explains as much
+constexpr double kMisfitOfFew = 2;   // nor this, where most edges were not even found near the model
 // How far off the legs may be where tags gave the camera's pose, and where a tape measure did, to 3 cm and 3
 // deg.
 constexpr double kTagPoseRange_px = 30;
@@ -53,6 +56,8 @@ double MeanSide_px(const GroupSighting& sighting) {
     sum += (sighting.corners_px[i + 1] - sighting.corners_px[i]).norm();
   return sum / (static_cast<double>(sighting.corners_px.size()) / 4);
 }
+
+bool IsMeasuredEdge(const LegEdge& edge) { return edge.left_out.empty(); }
 
 class SessionCalibrator {
  public:
@@ -85,6 +90,7 @@ class SessionCalibrator {
       Solve();
       result_.times.solve_s += lap.Lap();
     }
+    RefuseContradicted();
     for (size_t i = 0; i < count_; ++i)
       if (IsReadable(i)) FinishImage(result_.images[i]);
     if (Usable()) CheckResult();
@@ -221,7 +227,8 @@ class SessionCalibrator {
     input.known.platform_joint_m = kDrawingSigma_m;
     input.known.joint_offset_m = kDrawingSigma_m;
     input.known.joint_reading_m = kDrawingSigma_m / 10;
-    if (!input.known.distortion) input.known.distortion = kGuessedDistortion;
+    input.known.distortion =
+        std::min(input.known.distortion.value_or(kGuessedDistortion), kGuessedDistortion);
     input.known.focal_length_px = kGuessedFocalShare * drawn_camera_.fx_px;
     input.known.principal_point_px = kGuessedCentreShare * drawn_camera_.width_px;
     if (!input.known.radius_m) input.known.radius_m = 0.1 * session_.robot.legs[0].radius_m;
@@ -317,6 +324,25 @@ class SessionCalibrator {
     if (Usable()) Adopt(result_.calibration);
   }
 
+  void RefuseContradicted() {
+    LegCalibration& calibration = result_.calibration;
+    if (!Usable()) return;
+    size_t edges = 0, used = 0;
+    for (const ImageOutcome& image : result_.images) {
+      edges += image.edges.edges.size();
+      used += static_cast<size_t>(
+          std::count_if(image.edges.edges.begin(), image.edges.edges.end(), IsMeasuredEdge));
+    }
+    const double misfit = calibration.Misfit();
+    if (misfit < kMisfitOfFew || (misfit < kGrossMisfit && 2 * used >= edges)) return;
+    calibration.status = CalibrationStatus::kNotConverged;
+    calibration.message = fmt::format(
+        "{} of {} edges were found near the best model, and these lie {:.1f} times as far from it ({:.2f} px "
+        "rms) as their own scatter allows: what is held or known beforehand is wrong, the lens model too "
+        "poor, or this is not the robot of the drawing",
+        used, edges, misfit, calibration.rms_px);
+  }
+
   void CheckResult() {
     if (options_.progress) options_.progress("checking", 0, 1);
     const std::vector<size_t>& used = result_.estimated;
@@ -325,6 +351,7 @@ class SessionCalibrator {
       const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
                                              FoldsOf(used.size(), options_.folds, options_.seed));
       result_.held_out_rms_px = held_out.rms_px;
+      result_.held_out_folds_failed = held_out.folds_failed;
       for (size_t k = 0; k < used.size(); ++k)
         result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
     }
@@ -346,9 +373,12 @@ class SessionCalibrator {
       image.left_out = "no pose of the platform has its joint readings";
       return;
     }
-    const bool any = std::any_of(image.edges.edges.begin(), image.edges.edges.end(),
-                                 [](const LegEdge& edge) { return edge.left_out.empty(); });
-    if (!any) image.left_out = "none of its edges could be measured";
+    if (std::any_of(image.edges.edges.begin(), image.edges.edges.end(), IsMeasuredEdge)) return;
+    std::map<std::string, int> counts;
+    for (const LegEdge& edge : image.edges.edges) ++counts[edge.left_out];
+    const auto commonest = std::max_element(counts.begin(), counts.end(),
+                                            [](const auto& a, const auto& b) { return a.second < b.second; });
+    image.left_out = "none of its edges could be measured, most of them: " + commonest->first;
   }
 
   void CheckTags(const std::vector<size_t>& used) {

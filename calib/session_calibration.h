@@ -61,6 +61,7 @@ struct SessionCalibration {
   // Edges of images held out in turn, predicted from their joint readings alone (or, without readings, after
   // their pose was fitted): root mean square over all of them.
   std::optional<double> held_out_rms_px;
+  int held_out_folds_failed = 0;  // turns in which the other images alone did not lead to a model
   std::vector<TagCheck> tag_checks;
   std::string first_pose_from;           // "tags base_board" or "camera.yaml"
   std::vector<std::string> misfit_tags;  // groups on the base that were not used to place the camera, and why
@@ -70,7 +71,8 @@ struct SessionCalibration {
 
 // Runs the whole chain. Throws std::invalid_argument for a session that does not say where the camera is (no
 // camera_from_base and no tags on the base that are seen); an image that cannot be read, or whose joint
-// readings lead to no pose of the platform, is left out with its reason. The readings say where to look for
+// readings lead to no pose of the platform, is left out with its reason. A model that the edges contradict
+// grossly counts as not converged, whatever the estimation says. The readings say where to look for
 // the legs even where the estimation leaves them out.
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options);
 

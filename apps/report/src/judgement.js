@@ -1,20 +1,5 @@
 // What a calibration amounts to in words: a level, a headline, and what to look at. No page elements here.
-import {
-  describeParameter,
-  fixed,
-  inWords,
-  isNumber,
-  percent,
-  plural,
-  sentence,
-  significant,
-} from "./format.js";
-import { imagesOf, leftOutEdges, usedImages } from "./observations.js";
-
-export const PULL_LIMIT_SIGMA = 3;
-const HELD_OUT_RATIO_LIMIT = 1.5;
-const LEFT_OUT_SHARE_LIMIT = 0.5;
-const WEAK_LIMIT = 0.1;
+import { inWords, isNumber, percent, plural, sentence, significant } from "./format.js";
 
 const FAILURES = {
   unobservable: {
@@ -49,7 +34,7 @@ const UNKNOWN_FAILURE = { headline: "Not usable: the calibration ended without a
 export function judge(data) {
   const calibration = data.calibration ?? {};
   if (calibration.status !== "converged") return failure(calibration);
-  const warnings = warningsOf(data);
+  const warnings = warningsOf(calibration);
   return {
     level: warnings.length ? "care" : "good",
     headline: warnings.length ? "Converged, with something to look at" : "Converged",
@@ -60,13 +45,15 @@ export function judge(data) {
   };
 }
 
+const warningsOf = ({ warnings }) => (warnings ?? []).map((text) => sentence(inWords(text)));
+
 function failure(calibration) {
   const { headline, advice } = FAILURES[calibration.status] ?? UNKNOWN_FAILURE;
   return {
     level: "bad",
     headline,
     sentences: calibration.message ? [sentence(inWords(calibration.message))] : [],
-    warnings: [],
+    warnings: warningsOf(calibration),
     open: (calibration.unobservable ?? []).map((text) => sentence(inWords(text))),
     advice,
   };
@@ -95,59 +82,4 @@ function weakestPoint(data) {
   if (!weakest) return null;
   const size = isNumber(weakest.relative_sigma) ? ` (σ ${percent(weakest.relative_sigma)} of its size)` : "";
   return `What the images tell least about${size}: ${inWords(weakest.description)}.`;
-}
-
-function warningsOf(data) {
-  return [
-    ...openWarnings(data),
-    ...heldOutWarnings(data),
-    ...leftOutWarnings(data),
-    ...(data.calibration.joint_readings_left_out ?? []).map(sentence),
-    ...weakWarnings(data),
-    ...priorWarnings(data),
-  ];
-}
-
-const openWarnings = ({ calibration }) =>
-  (calibration.unobservable ?? []).map((text) => sentence(inWords(text)));
-
-function heldOutWarnings({ calibration: { rms_px: fit, held_out: heldOut } }) {
-  const ratio = heldOut?.rms_px / fit;
-  if (!(ratio > HELD_OUT_RATIO_LIMIT)) return [];
-  return [
-    `The error in held-out images is ${fixed(ratio, 1)} times that of the fit: more images, or more varied ` +
-      "poses, would make the model more reliable in new poses.",
-  ];
-}
-
-function leftOutWarnings(data) {
-  const edges = usedImages(data).reduce((count, image) => count + (image.edges?.length ?? 0), 0);
-  const leftOut = leftOutEdges(data).length;
-  const images = imagesOf(data).length;
-  const imagesLeftOut = data.calibration.images_left_out?.length ?? 0;
-  return [
-    imagesLeftOut > LEFT_OUT_SHARE_LIMIT * images && `${imagesLeftOut} of ${images} images were left out.`,
-    leftOut > LEFT_OUT_SHARE_LIMIT * edges && `${leftOut} of ${edges} edges were left out.`,
-  ].filter(Boolean);
-}
-
-function weakWarnings(data) {
-  return (data.weak ?? [])
-    .filter(({ relative_sigma: size }) => size > WEAK_LIMIT)
-    .map(
-      ({ description, relative_sigma: size }) =>
-        `Known only to ${percent(size)} of its size: ${inWords(description)}.`,
-    );
-}
-
-function priorWarnings(data) {
-  return (data.priors ?? [])
-    .filter(({ pull_sigma: pull }) => Math.abs(pull) > PULL_LIMIT_SIGMA)
-    .map(({ name, pull_sigma: pull }) => {
-      const { group, label } = describeParameter(name);
-      return (
-        `The images put ${group.toLowerCase()}, ${label} ${fixed(Math.abs(pull), 1)} σ away from what was ` +
-        "said about it beforehand: check that value and its σ."
-      );
-    });
 }

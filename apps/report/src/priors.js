@@ -9,9 +9,8 @@ import {
   parameterTitle,
   signed,
 } from "./format.js";
-import { PULL_LIMIT_SIGMA } from "./judgement.js";
 
-const FULL_BAR_SIGMA = 4;
+const FULL_BAR_SIGMA = 6;
 const ROWS_SHOWN = 30;
 
 export function renderPriors(section, data) {
@@ -25,24 +24,25 @@ export function renderPriors(section, data) {
   append(
     section,
     muted(
-      "Each value given beforehand enters as an observation with its σ. Pull is found minus given in units " +
-        `of that σ; more than ${PULL_LIMIT_SIGMA} either way contradicts what was given. Largest first.`,
+      "Each value given beforehand enters as an observation with its σ. Pull is found minus given, divided by " +
+        "the σ that this difference has (the root of the difference of their variances); more than " +
+        `${data.contradicting_pull_sigma} either way contradicts what was given. Largest first.`,
     ),
-    priorTable("Prior knowledge", priors.slice(0, ROWS_SHOWN)),
-    rest(priors.slice(ROWS_SHOWN)),
+    priorTable("Prior knowledge", priors.slice(0, ROWS_SHOWN), data.contradicting_pull_sigma),
+    rest(priors.slice(ROWS_SHOWN), data.contradicting_pull_sigma),
   );
 }
 
-const rest = (priors) =>
+const rest = (priors, limit) =>
   priors.length > 0 &&
   html(
     "details",
     null,
     html("summary", null, `${priors.length} more`),
-    priorTable("Prior knowledge, smaller pulls", priors),
+    priorTable("Prior knowledge, smaller pulls", priors, limit),
   );
 
-function priorTable(caption, priors) {
+function priorTable(caption, priors, limit) {
   return table(
     caption,
     [
@@ -53,9 +53,9 @@ function priorTable(caption, priors) {
       { label: "Found", cell: (prior) => inUnit(prior, prior.found) },
       { label: "Pull", unit: "σ", cell: ({ pull_sigma: pull }) => signed(pull, 2) },
       {
-        label: "−4 … +4 σ",
+        label: "−6 … +6 σ",
         cell: ({ pull_sigma: pull }) =>
-          barCell(pull, FULL_BAR_SIGMA, { signed: true, alarming: Math.abs(pull) > PULL_LIMIT_SIGMA }),
+          barCell(pull, FULL_BAR_SIGMA, { signed: true, alarming: Math.abs(pull) > limit }),
       },
     ],
     [{ rows: priors }],

@@ -30,20 +30,11 @@ test("without held-out images the verdict claims nothing about new poses", () =>
   assert.match(sentences.join(" "), /No images were held out/);
 });
 
-test("each finding turns the verdict into one to look at", () => {
-  const findings = [
-    converged({}, { held_out: { rms_px: 0.2 } }),
-    converged({}, { unobservable: ["the scale is free"] }),
-    converged({ weak: [{ description: "the focal length", relative_sigma: 0.2 }] }),
-    converged({ priors: [{ name: "legs[1].radius_m", pull_sigma: -3.4 }] }),
-    converged({ images: [{ name: "a", edges: [{ left_out: "hidden" }, { left_out: "hidden" }] }] }),
-    converged({ images: [{ name: "a" }] }, { images_left_out: [{ name: "a", reason: "dark" }] }),
-  ];
-  for (const data of findings) {
-    const { level, warnings } = judge(data);
-    assert.equal(level, "care");
-    assert.equal(warnings.length, 1);
-  }
+test("a warning turns the verdict into one to look at, and names its parameters in words", () => {
+  const { level, headline, warnings } = judge(converged({}, { warnings: ["check legs[1].radius_m"] }));
+  assert.equal(level, "care");
+  assert.match(headline, /something to look at/);
+  assert.deepEqual(warnings, ["Check leg 1 radius R."]);
 });
 
 test("every other status is bad and leads with its message, what is open, and what to do", () => {
@@ -52,11 +43,13 @@ test("every other status is bad and leads with its message, what is open, and wh
       calibration: {
         status,
         message: "why it failed",
+        warnings: ["001.png: left out: dark"],
         unobservable: ["legs[1].radius_m is free: measure it"],
       },
     });
     assert.equal(judgement.level, "bad");
     assert.deepEqual(judgement.sentences, ["Why it failed."]);
+    assert.deepEqual(judgement.warnings, ["001.png: left out: dark."]);
     assert.deepEqual(judgement.open, ["Leg 1 radius R is free: measure it."]);
     assert.ok(judgement.advice.length > 0);
   }

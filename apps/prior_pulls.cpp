@@ -1,0 +1,66 @@
+#include "apps/prior_pulls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace legible {
+namespace {
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr double kLeastVarianceShare = 1e-4;  // of what was given, that the images must tell beyond rounding
+
+class PullList {
+ public:
+  void Add(const std::string& name, double value, const std::optional<double>& sigma, double found,
+           double found_sigma) {
+    if (!sigma || !(found_sigma > 0)) return;  // nothing said; held, or not known
+    const double variance =
+        std::max(*sigma * *sigma - found_sigma * found_sigma, kLeastVarianceShare * *sigma * *sigma);
+    list_.push_back({name, value, *sigma, found, (found - value) / std::sqrt(variance)});
+  }
+  void AddPoint(const std::string& name, const Eigen::Vector3d& value, const std::optional<double>& sigma,
+                const Eigen::Vector3d& found, const Eigen::Vector3d& found_sigma) {
+    for (int i = 0; i < 3; ++i) Add(name + "." + kAxes[i], value[i], sigma, found[i], found_sigma[i]);
+  }
+  std::vector<PriorPull> Take() { return std::move(list_); }
+
+ private:
+  std::vector<PriorPull> list_;
+};
+
+void AddCamera(const CalibrationRun& run, const FoundParameters& found, PullList& pulls) {
+  const PriorKnowledge& known = run.session.known;
+  const CameraParameters guess = ParametersOf(run.session.camera);
+  for (int i = 0; i < kCameraParameterCount; ++i) {
+    const auto& sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
+    pulls.Add(ParameterName(i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
+  }
+}
+
+}  // namespace
+
+// The base joints are known up to where the base as a whole is, and the base frame is the rigid fit to the
+// drawing: in that frame found minus drawn is what is compared with their sigma. The same holds for the
+// platform.
+std::vector<PriorPull> PriorPulls(const CalibrationRun& run, const FoundParameters& found) {
+  PullList pulls;
+  AddCamera(run, found, pulls);
+  const PriorKnowledge& known = run.session.known;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    const Leg& drawn = run.session.robot.legs[i];
+    const FoundLeg& leg = found.legs[i];
+    const std::string name = fmt::format("legs[{}].", i + 1);
+    pulls.AddPoint(name + "base_joint_m", drawn.base_joint_m, known.base_joint_m, leg.base_joint_m,
+                   leg.sigma.base_joint_m);
+    pulls.AddPoint(name + "platform_joint_m", drawn.platform_joint_m, known.platform_joint_m,
+                   leg.platform_joint_m, leg.sigma.platform_joint_m);
+    pulls.Add(name + "radius_m", drawn.radius_m, known.radius_m, leg.radius_m, leg.sigma.radius_m);
+    pulls.Add(name + "joint_offset_m", drawn.joint_offset_m, known.joint_offset_m, leg.joint_offset_m,
+              leg.sigma.joint_offset_m);
+  }
+  return pulls.Take();
+}
+
+}  // namespace legible
