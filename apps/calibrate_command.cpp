@@ -25,6 +25,8 @@
 namespace legible {
 namespace {
 
+const std::vector<std::string> kResultFiles = {"model.yaml", "calibration.json", "report.html"};
+
 // What no estimation is needed for to see that it cannot start.
 void DemandPlaceOfCamera(const Session& session) {
   if (session.camera_from_base) return;
@@ -104,13 +106,12 @@ CalibratedModel ModelOf(const CalibrationRun& run) {
 }
 
 void Write(const CalibrationRun& run, const std::string& json, const std::string& page) {
-  WriteTogether(run.settings.out, {"model.yaml", "calibration.json", "report.html"},
-                [&](const std::filesystem::path& folder) {
-                  if (run.result.calibration.status == CalibrationStatus::kConverged)
-                    WriteModel(folder / "model.yaml", ModelOf(run));
-                  WriteFileAtomically(folder / "calibration.json", json);
-                  WriteFileAtomically(folder / "report.html", page);
-                });
+  WriteTogether(run.settings.out, kResultFiles, [&](const std::filesystem::path& folder) {
+    if (run.result.calibration.status == CalibrationStatus::kConverged)
+      WriteModel(folder / "model.yaml", ModelOf(run));
+    WriteFileAtomically(folder / "calibration.json", json);
+    WriteFileAtomically(folder / "report.html", page);
+  });
 }
 
 void Print(const CalibrationRun& run, const FoundParameters& found, const std::string& json,
@@ -127,7 +128,7 @@ void Print(const CalibrationRun& run, const FoundParameters& found, const std::s
 
 int RunCalibrate(const CalibrateSettings& settings, const Console& console) {
   const Stopwatch total;
-  DemandWritable(settings.out);
+  DemandWritable(settings.out, kResultFiles);
   CalibrationRun run = Load(settings);
   const double load_s = total.Seconds();
 

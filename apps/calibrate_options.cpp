@@ -40,6 +40,11 @@ Examples:
   legible calibrate my-session --out result --known radius_m=2e-5 --hold principal-point
   legible calibrate my-session --format json | jq .held_out.rms_px)";
 
+// That fits into any of our types.
+bool IsWholeNumber(const std::string& text) {
+  return !text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 CLI::ValidationError NoneOf(const std::string& option, const std::string& value,
                             const std::vector<std::string>& names) {
   return CLI::ValidationError(option, fmt::format("\"{}\" is none of {}", value, fmt::join(names, ", ")));
@@ -51,6 +56,7 @@ void DemandOneOf(const std::string& option, const std::string& value, const std:
 
 void AddOutputOptions(CLI::App& command, CalibrateSettings& settings) {
   command.add_option("--out", settings.out, "Folder for the results")
+      ->check([](const std::string& text) { return text.empty() ? "name a folder" : std::string(); })
       ->type_name("DIR")
       ->default_str(settings.out.string());
   command
@@ -137,7 +143,7 @@ void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
       .add_option("--folds", settings.folds,
                   "Images are held out in so many turns to check\nthe model; 0: not at all")
       ->check([](const std::string& text) {
-        return text == "1" || text.starts_with('-') ? "give 0, or 2 and more" : std::string();
+        return IsWholeNumber(text) && text != "1" ? std::string() : "give 0, or a whole number from 2";
       })
       ->type_name("N")
       ->capture_default_str();
@@ -145,6 +151,9 @@ void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
       .add_option(
           "--seed", settings.seed,
           "Draw at random, from this seed, which images are\nheld out together; without it nothing is random")
+      ->check([](const std::string& text) {
+        return IsWholeNumber(text) ? std::string() : "give a whole number of at most 9 digits";
+      })
       ->type_name("N");
   settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command

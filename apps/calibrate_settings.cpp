@@ -80,9 +80,11 @@ std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text
   const std::string value = text.substr(equals + 1);
   if (value == "none") return {name, std::nullopt};
   const std::optional<double> sigma = ParseFinite(value);
-  if (!sigma || *sigma <= 0)
-    throw std::invalid_argument(
-        fmt::format("{} is \"{}\", which is neither a number greater than 0 nor none", name, value));
+  if (!sigma || *sigma < kLeastKnownSigma)
+    throw std::invalid_argument(fmt::format(
+        "{} is \"{}\", which is neither a number from {} nor none (what is known exactly is held with "
+        "--hold)",
+        name, value, kLeastKnownSigma));
   return {name, sigma};
 }
 

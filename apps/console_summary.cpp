@@ -117,12 +117,14 @@ std::string LegTable(const CalibrationRun& run, const FoundParameters& found) {
   return text;
 }
 
-// The first look failed although there was enough to look at.
+// The first look failed, or most images show no leg near its prediction, although there was enough to look
+// at.
 bool WereLegsNotFound(const CalibrationRun& run) {
   const auto& images = run.result.images;
-  const auto with_edges = std::count_if(images.begin(), images.end(),
-                                        [](const ImageOutcome& image) { return !image.edges.edges.empty(); });
-  return !run.result.first_look.empty() && with_edges >= kTooFewImages;
+  const auto looked_at = std::count_if(images.begin(), images.end(),
+                                       [](const ImageOutcome& image) { return !image.edges.edges.empty(); });
+  return looked_at >= kTooFewImages &&
+         (!run.result.first_look.empty() || 2 * CountUsedImages(run.result) < looked_at);
 }
 
 std::string OpenSentences(const std::vector<WeakDirection>& open) {

@@ -46,7 +46,17 @@ void AddImagesLeftOut(const CalibrationRun& run, Sentences& sentences) {
         unlisted.size() == 1 ? "1 image" : fmt::format("{} images", unlisted.size()), Few(unlisted)));
 }
 
+bool SeesATag(const CalibrationRun& run) {
+  for (const TagGroup& group : run.session.tags->groups)
+    for (const ImageOutcome& image : run.result.images)
+      if (!Match(group, image.tags).corners_px.empty()) return true;
+  return false;
+}
+
 void AddStart(const CalibrationRun& run, Sentences& sentences) {
+  if (run.session.tags && !SeesATag(run))
+    sentences.push_back(fmt::format("no image shows a tag of tags.yaml: check its family ({}) and ids",
+                                    run.session.tags->family));
   for (const std::string& sentence : run.result.misfit_tags) sentences.push_back(sentence);
   if (!run.result.first_look.empty())
     sentences.push_back(fmt::format(

@@ -1,7 +1,13 @@
 #include "apps/output_folder.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <optional>
 
 #include "datasets/input_error.h"
 
@@ -10,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kStagingEnd[] = ".part";
+
 // The folders that would have to be made for `folder` to be there, the innermost first.
 std::vector<fs::path> MissingFolders(fs::path folder) {
   std::vector<fs::path> missing;
@@ -17,12 +25,31 @@ std::vector<fs::path> MissingFolders(fs::path folder) {
   return missing;
 }
 
+// The process whose staging folder has this name; nothing for other names.
+std::optional<pid_t> StagedBy(const std::string& name) {
+  pid_t process = 0;
+  const char* const end = name.data() + name.size();
+  if (!name.starts_with('.') || !name.ends_with(kStagingEnd)) return std::nullopt;
+  const auto [stop, error] = std::from_chars(name.data() + 1, end, process);
+  return error == std::errc() && stop + std::strlen(kStagingEnd) == end ? std::optional(process)
+                                                                        : std::nullopt;
+}
+
+// Staging folders of processes that were killed while they wrote.
+void RemoveAbandoned(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const auto process = StagedBy(entry.path().filename());
+    if (process && kill(*process, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), ignored);
+  }
+}
+
 // Where files wait, in the folder that they are for so that moving them is one step each. Gone afterwards,
 // and so are the folders that were made for this and stayed empty.
 class Staging {
  public:
   explicit Staging(const fs::path& folder)
-      : made_(MissingFolders(folder)), path_(folder / fmt::format(".{}.part", getpid())) {
+      : made_(MissingFolders(folder)), path_(folder / fmt::format(".{}{}", getpid(), kStagingEnd)) {
     try {
       fs::create_directories(path_);
     } catch (const fs::filesystem_error&) {
@@ -59,8 +86,15 @@ void OrInputError(const fs::path& folder, Action action) {
 
 }  // namespace
 
-void DemandWritable(const fs::path& folder) {
-  OrInputError(folder, [&] { Staging trial(folder); });
+void DemandWritable(const fs::path& folder, const std::vector<std::string>& names) {
+  OrInputError(folder, [&] {
+    RemoveAbandoned(folder);
+    const Staging trial(folder);
+  });
+  for (const std::string& name : names)
+    if (fs::is_directory(folder / name))
+      throw InputError(folder / name, 0, "is a folder where a file is to be written",
+                       "remove it, or name another folder with --out");
 }
 
 void WriteTogether(const fs::path& folder, const std::vector<std::string>& names,

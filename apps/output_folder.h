@@ -9,8 +9,9 @@
 namespace legible {
 
 // Throws InputError, and leaves everything as it was, unless the folder can be written, or made where it is
-// missing.
-void DemandWritable(const std::filesystem::path& folder);
+// missing, and files of these names can come into it. What a run that was killed left half-written in it
+// goes.
+void DemandWritable(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 // Calls `write` with an empty folder beside the results; then moves what it wrote there into `folder`,
 // replacing what was there. Those of `names` that `write` did not write are removed: they would be an earlier

@@ -21,16 +21,18 @@ std::string CommandOf(const CLI::App& app) {
   return commands.empty() ? app.get_name() : app.get_name() + " " + commands.front()->get_name();
 }
 
-// "unknown option --ot", or "unexpected argument b".
+// "unknown option --ot", "unknown command bogus" or "unexpected argument b".
 std::string WhatIsUnexpected(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
   const auto option =
       std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.starts_with('-'); });
-  return option == words.end() ? "unexpected argument " + words.front() : "unknown option " + *option;
+  if (option != words.end()) return "unknown option " + *option;
+  return (app.get_subcommands().empty() ? "unknown command " : "unexpected argument ") + words.front();
 }
 
 int ReportUsageError(const CLI::App& app, const CLI::ParseError& error, std::ostream& err) {
-  const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                             (app.get_subcommands().empty() && app.remaining_size(true) > 0);
   std::string what = is_unexpected ? WhatIsUnexpected(app) : error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');
   err << "legible: " << what << "; see `" << CommandOf(app) << " --help`\n";
@@ -63,7 +65,10 @@ int RunProgram(const std::vector<std::string>& arguments, const Console& console
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   try {
-    return ParseAndRun(app, arguments, console);
+    const int code = ParseAndRun(app, arguments, console);
+    if (console.out.flush()) return code;
+    console.err << "legible: standard output cannot be written\n";
+    return kExitNoResult;
   } catch (const InputError& error) {
     console.err << "legible: " << error.what() << "\n";
     return kExitBadInput;

@@ -14,10 +14,10 @@
 namespace legible {
 namespace {
 
-// Relative sigma from which a combination counts as not known. Where one does, so does what is known little
-// better: the analysis is linear, about a place that is arbitrary along what is open.
-constexpr double kUnknown = 1.0 / 3;
-constexpr double kUnknownWithOthers = 0.05;
+constexpr double kUnknown = 1.0 / 3;  // relative sigma from which a combination counts as not known
+// Where a combination is not known, relative sigma from which no number is given for what is known better
+// than it: the analysis is linear, about a place that is arbitrary along what is open.
+constexpr double kPoorlyKnown = 0.05;
 constexpr double kShadingSize_px = 100;  // so large that shading never counts as unknown: it has its prior
 constexpr double kNumericalZero =
     1e-13;                         // of the largest eigenvalue: below it there is no information at all
@@ -214,8 +214,7 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
     return values[i] > zero ? 1 / std::sqrt(values[i]) : std::numeric_limits<double>::infinity();
   };
   Eigen::Index unknown = 0;
-  const double limit = count > 0 && sigma(0) > kUnknown ? kUnknownWithOthers : kUnknown;
-  while (unknown < count && sigma(unknown) > limit) ++unknown;
+  while (unknown < count && sigma(unknown) > kUnknown) ++unknown;
   result.unobservable = NameUnobservable(problem, sizes, relative, zero, vectors.leftCols(unknown));
   for (Eigen::Index i = unknown; i < count && result.weak.size() < kWeakDirectionsReported; ++i)
     if (!IsMostlyShading(vectors.col(i)))
@@ -224,8 +223,10 @@ Observability AnalyseObservability(const EstimationProblem& problem) {
   const Eigen::MatrixXd known = sizes.asDiagonal() * vectors.rightCols(count - unknown);
   result.covariance = known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();
   result.known.resize(kSharedParameterCount);
+  Eigen::Index withheld = unknown;
+  while (unknown > 0 && withheld < count && sigma(withheld) > kPoorlyKnown) ++withheld;
   for (int i = 0; i < kSharedParameterCount; ++i)
-    result.known[static_cast<size_t>(i)] = vectors.row(i).head(unknown).norm() < kTouched;
+    result.known[static_cast<size_t>(i)] = vectors.row(i).head(withheld).norm() < kTouched;
   KnowPointsAsWholes(result.known);
   return result;
 }

@@ -18,12 +18,12 @@ struct WeakDirection {
 };
 
 struct Observability {
-  // Known no better than to a third of their own size, or, where one is, than to a twentieth.
-  std::vector<WeakDirection> unobservable;
-  std::vector<WeakDirection> weak;  // the three least certain of the rest
-  Eigen::MatrixXd covariance;       // kSharedParameterCount square, SI units and px, in the platform gauge
-  std::vector<bool>
-      known;  // per parameter: held, or untouched by an unobservable direction; a joint as a whole
+  std::vector<WeakDirection> unobservable;  // known no better than to a third of their own size
+  std::vector<WeakDirection> weak;          // the three least certain of the rest
+  Eigen::MatrixXd covariance;  // kSharedParameterCount square, SI units and px, in the platform gauge
+  // Per parameter: held, or untouched by an unobservable direction and, where there is one, by others that
+  // are known no better than to a twentieth; a joint as a whole.
+  std::vector<bool> known;
 };
 
 // Eigenvalues of the problem's information in natural units (each parameter relative to the size of its

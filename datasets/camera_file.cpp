@@ -59,6 +59,14 @@ void DemandPlausibleFocalLength(const YamlValue& section, const char* name, doub
                   kLongestFocalLength));
 }
 
+// Lenses are shifted, and images cut out of larger ones, but not by as much as the image.
+void DemandNearImage(const YamlValue& section, const char* name, double centre_px, const char* side,
+                     int size_px) {
+  if (centre_px >= -0.5 * size_px && centre_px <= 1.5 * size_px) return;
+  section.Fail(fmt::format("has {} {} px for an image {} px {}", name, centre_px, size_px, side),
+               "give the principal point in pixels, in the image or near it");
+}
+
 void ReadIntrinsics(const YamlValue& section, Camera& camera) {
   const std::vector<double> k = MatrixFromYaml(section);
   if (k.size() != 9) section.Fail(fmt::format("has {} values", k.size()), "give the 9 of a 3 x 3 matrix");
@@ -71,6 +79,8 @@ void ReadIntrinsics(const YamlValue& section, Camera& camera) {
   camera.cy_px = k[5];
   DemandPlausibleFocalLength(section, "fx", camera.fx_px, "wide", camera.width_px);
   DemandPlausibleFocalLength(section, "fy", camera.fy_px, "high", camera.height_px);
+  DemandNearImage(section, "cx", camera.cx_px, "wide", camera.width_px);
+  DemandNearImage(section, "cy", camera.cy_px, "high", camera.height_px);
 }
 
 LensModel LensFromYaml(const YamlValue& model) {

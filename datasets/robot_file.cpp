@@ -8,6 +8,16 @@
 namespace legible {
 namespace {
 
+constexpr double kFarthestJoint_m = 30;  // from its frame's origin: beyond any hexapod; a small one's in mm
+
+Eigen::Vector3d JointFromYaml(const YamlValue& section) {
+  const Eigen::Vector3d joint = section.Vector3();
+  if (joint.norm() > kFarthestJoint_m)
+    section.Fail(fmt::format("is {:.4g} m from the origin of its frame", joint.norm()),
+                 "give lengths in metres, not in millimetres");
+  return joint;
+}
+
 std::array<double, 2> RangeFromYaml(const YamlValue& section) {
   const std::vector<double> range = section.Numbers(2);
   if (range[0] >= range[1]) {
@@ -20,8 +30,8 @@ std::array<double, 2> RangeFromYaml(const YamlValue& section) {
 Leg LegFromYaml(const YamlValue& section) {
   section.AllowKeys({"base_joint_m", "platform_joint_m", "radius_m", "joint_offset_m", "joint_range_m"});
   Leg leg;
-  leg.base_joint_m = section.Get("base_joint_m").Vector3();
-  leg.platform_joint_m = section.Get("platform_joint_m").Vector3();
+  leg.base_joint_m = JointFromYaml(section.Get("base_joint_m"));
+  leg.platform_joint_m = JointFromYaml(section.Get("platform_joint_m"));
   leg.radius_m = section.Get("radius_m").PositiveNumber();
   if (const auto offset = section.Find("joint_offset_m")) leg.joint_offset_m = offset->Number();
   leg.joint_range_m = RangeFromYaml(section.Get("joint_range_m"));

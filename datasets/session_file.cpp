@@ -28,7 +28,13 @@ PriorKnowledge KnownFromYaml(const YamlValue& section) {
   for (const auto& [name, field] : kKnownFields) names.push_back(name);
   section.AllowKeys(names);
   for (const auto& [name, field] : kKnownFields) {
-    if (const auto sigma = section.Find(name)) known.*field = sigma->PositiveNumber();
+    const auto sigma = section.Find(name);
+    if (!sigma) continue;
+    known.*field = sigma->PositiveNumber();
+    if (known.*field < kLeastKnownSigma)
+      sigma->Fail(
+          fmt::format("is {}", *(known.*field)),
+          fmt::format("give {} or more; what is known exactly is held with --hold", kLeastKnownSigma));
   }
   return known;
 }

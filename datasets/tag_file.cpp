@@ -24,27 +24,36 @@ TagCarrier CarrierFromYaml(const YamlValue& value) {
   return TagCarrier::kPlatform;
 }
 
-// Twice the area that the four corners enclose (m^2).
-double DoubleArea(const std::array<Eigen::Vector3d, 4>& corners_m) {
-  return (corners_m[2] - corners_m[0]).cross(corners_m[3] - corners_m[1]).norm();
+// The smallest triangle of three neighbouring corners over the half of what the diagonals span: 1 for a
+// square, 0 where corners coincide or three of them lie on a line.
+double Fullness(const std::array<Eigen::Vector3d, 4>& corners_m) {
+  const double whole = (corners_m[2] - corners_m[0]).cross(corners_m[3] - corners_m[1]).norm();
+  double least = whole;
+  for (size_t i = 0; i < 4; ++i)
+    least = std::min(
+        least, (corners_m[(i + 1) % 4] - corners_m[i]).cross(corners_m[(i + 2) % 4] - corners_m[i]).norm());
+  return whole > 0 ? 2 * least / whole : 0;
 }
 
-Tag TagFromYaml(const YamlValue& section) {
+Tag TagFromYaml(const YamlValue& section, const TagFamily& family) {
   section.AllowKeys({"id", "corners_m"});
   Tag tag;
   tag.id = section.Get("id").Integer();
-  if (tag.id < 0) section.Fail(fmt::format("has the id {}", tag.id), "give 0 or more");
+  if (tag.id < 0 || tag.id >= family.tags)
+    section.Fail(fmt::format("has the id {}", tag.id),
+                 fmt::format("{} has the ids 0 to {}", family.name, family.tags - 1));
   const YamlValue corners = section.Get("corners_m");
   const std::vector<YamlValue> list = corners.List(4);
   for (size_t i = 0; i < 4; ++i) tag.corners_m[i] = list[i].Vector3();
-  if (DoubleArea(tag.corners_m) == 0) {
-    corners.Fail("enclose no area",
+  constexpr double kLeastFullness = 0.1;
+  if (Fullness(tag.corners_m) < kLeastFullness) {
+    corners.Fail("are not those of a square",
                  "give bottom-left, bottom-right, top-right, top-left of the black border");
   }
   return tag;
 }
 
-TagGroup GroupFromYaml(const YamlValue& section) {
+TagGroup GroupFromYaml(const YamlValue& section, const TagFamily& family) {
   TagGroup group;
   group.carrier = CarrierFromYaml(section.Get("on"));
   const std::string placement = PlacementKey(group.carrier);
@@ -55,8 +64,19 @@ TagGroup GroupFromYaml(const YamlValue& section) {
   known.AllowKeys({"translation_m", "rotation_rad"});
   group.translation_sigma_m = known.Get("translation_m").PositiveNumber();
   group.rotation_sigma_rad = known.Get("rotation_rad").PositiveNumber();
-  for (const YamlValue& tag : section.Get("tags").List()) group.tags.push_back(TagFromYaml(tag));
+  for (const YamlValue& tag : section.Get("tags").List()) group.tags.push_back(TagFromYaml(tag, family));
   return group;
+}
+
+const TagFamily& FamilyFromYaml(const YamlValue& value) {
+  const std::string name = value.Text();
+  std::vector<std::string> names;
+  for (const TagFamily& family : kTagFamilies) {
+    if (family.name == name) return family;
+    names.push_back(family.name);
+  }
+  value.Fail(fmt::format("is \"{}\", which libapriltag does not have", name),
+             fmt::format("the nearest that it has is {}", NearestName(name, names)));
 }
 
 // A name or an id that is there already means that the file contradicts itself.
@@ -97,15 +117,11 @@ TagLayout ReadTags(const std::filesystem::path& file) {
   const YamlValue root = YamlValue::LoadFile(file);
   root.AllowKeys({"family", "groups"});
   TagLayout layout;
-  const YamlValue family = root.Get("family");
-  layout.family = family.Text();
-  if (std::find(kTagFamilies.begin(), kTagFamilies.end(), layout.family) == kTagFamilies.end()) {
-    family.Fail(fmt::format("is \"{}\", which libapriltag does not have", layout.family),
-                fmt::format("the nearest that it has is {}", NearestName(layout.family, kTagFamilies)));
-  }
+  const TagFamily& family = FamilyFromYaml(root.Get("family"));
+  layout.family = family.name;
   Once names_and_ids;
   for (const YamlValue& section : root.Get("groups").List()) {
-    layout.groups.push_back(GroupFromYaml(section));
+    layout.groups.push_back(GroupFromYaml(section, family));
     names_and_ids.Demand(section, fmt::format("the name \"{}\"", layout.groups.back().name));
     for (const YamlValue& tag : section.Get("tags").List()) {
       names_and_ids.Demand(tag, fmt::format("the id {}", tag.Get("id").Integer()));

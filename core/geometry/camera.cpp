@@ -140,7 +140,7 @@ Trial NewtonStep(const Distortion& k, const Eigen::Vector2d& distorted, const Tr
   const Eigen::Matrix2d jacobian = PointJacobian(k, RadialFactorAt(k, from.x.squaredNorm()), from.x);
   Eigen::Vector2d step = jacobian.inverse() * from.residual;
   for (int halvings = 0; halvings < 20; ++halvings, step *= 0.5) {
-    const Trial next = TrialAt(k, distorted, from.x + step);
+    Trial next = TrialAt(k, distorted, from.x + step);
     if (next.error < from.error) return next;
   }
   return from;

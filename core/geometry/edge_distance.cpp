@@ -1,5 +1,6 @@
 #include "core/geometry/edge_distance.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 

@@ -25,6 +25,8 @@ struct PriorKnowledge {
   std::optional<double> principal_point_px;
   std::optional<double> distortion;  // each coefficient
 };
+// The smallest sigma that may be said of anything: what is known better is held.
+inline constexpr double kLeastKnownSigma = 1e-9;
 // By the names that files and options give them.
 using KnownField = std::optional<double> PriorKnowledge::*;
 inline const std::vector<std::pair<std::string, KnownField>> kKnownFields = {
@@ -56,10 +58,20 @@ struct TagGroup {
   std::vector<Tag> tags;
 };
 
-// Families of tags that can be named, as libapriltag names them; "tag36h11" is the usual one.
-inline const std::vector<std::string> kTagFamilies = {
-    "tag36h11",       "tag36h10",         "tag25h9",          "tag16h5",       "tagCircle21h7",
-    "tagCircle49h12", "tagStandard41h12", "tagStandard52h13", "tagCustom48h12"};
+// A family of tags as libapriltag has it.
+struct TagFamily {
+  std::string name;
+  int tags;  // ids are 0 … tags - 1
+};
+inline const std::vector<TagFamily> kTagFamilies = {{"tag36h11", 587},
+                                                    {"tag36h10", 2320},
+                                                    {"tag25h9", 35},
+                                                    {"tag16h5", 30},
+                                                    {"tagCircle21h7", 38},
+                                                    {"tagCircle49h12", 65535},
+                                                    {"tagStandard41h12", 2115},
+                                                    {"tagStandard52h13", 48714},
+                                                    {"tagCustom48h12", 42211}};
 
 struct TagLayout {
   std::string family;  // of kTagFamilies

@@ -31,15 +31,45 @@ bool IsPng(const Bytes& bytes) {
   return bytes.size() >= 8 && std::memcmp(bytes.data(), kSignature, 8) == 0;
 }
 
-// Whether every chunk up to the end's is whole. libpng would print its own line to stderr where one is not.
+// Unpacks a zlib stream that comes in pieces, for nothing but to see whether it is whole.
+class InflateTrial {
+ public:
+  InflateTrial() { is_whole_so_far_ = inflateInit(&stream_) == Z_OK; }
+  ~InflateTrial() { inflateEnd(&stream_); }
+  InflateTrial(const InflateTrial&) = delete;
+  InflateTrial& operator=(const InflateTrial&) = delete;
+
+  void Feed(const std::uint8_t* bytes, size_t count) {
+    stream_.next_in = const_cast<Bytef*>(bytes);
+    stream_.avail_in = static_cast<uInt>(count);
+    while (is_whole_so_far_ && !has_ended_ && stream_.avail_in > 0) {
+      stream_.next_out = unpacked_.data();
+      stream_.avail_out = static_cast<uInt>(unpacked_.size());
+      const int result = inflate(&stream_, Z_NO_FLUSH);
+      has_ended_ = result == Z_STREAM_END;
+      is_whole_so_far_ = has_ended_ || result == Z_OK;
+    }
+  }
+  bool IsWhole() const { return is_whole_so_far_ && has_ended_; }
+
+ private:
+  z_stream stream_ = {};
+  Bytes unpacked_ = Bytes(1 << 16);
+  bool is_whole_so_far_ = true, has_ended_ = false;
+};
+
+// Whether every chunk up to the end's is whole, and so is what the pixels are packed in. libpng would print
+// its own line to stderr where one is not.
 bool IsIntactPng(const Bytes& bytes) {
   constexpr size_t kFrame = 12;  // of a chunk: length, type, checksum
+  InflateTrial pixels;
   for (size_t at = 8; at + kFrame <= bytes.size();) {
     const size_t length = BigEndian(bytes, at);
     if (length > bytes.size() - at - kFrame) return false;
-    const auto checksum = crc32(0, bytes.data() + at + 4, static_cast<uInt>(length + 4));
-    if (checksum != BigEndian(bytes, at + 8 + length)) return false;
-    if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
+    const std::uint8_t* const type = bytes.data() + at + 4;
+    if (crc32(0, type, static_cast<uInt>(length + 4)) != BigEndian(bytes, at + 8 + length)) return false;
+    if (std::memcmp(type, "IEND", 4) == 0) return pixels.IsWhole();
+    if (std::memcmp(type, "IDAT", 4) == 0) pixels.Feed(type + 4, length);
     at += kFrame + length;
   }
   return false;

@@ -1,4 +1,6 @@
 // What `legible calibrate` refuses: one clear line, exit code 2, nothing written.
+#include <fstream>
+
 #include "tests/apps/program_fixture.h"
 
 namespace legible {
@@ -101,9 +103,25 @@ TEST_F(CalibrateRefuses, BadUsageNamingTheOptionAndTheHelp) {
   refused({"--known", "radius=0.1"}, "--known: \"radius\" is none of ");
   refused({"--known", "radius_m=-1"}, "--known: radius_m is \"-1\"");
   refused({"--known", "radius_m"}, "--known: \"radius_m\" has no value");
-  refused({"--folds", "1"}, "--folds: give 0, or 2 and more");
-  refused({"--folds", "few"}, "--folds");
+  refused({"--known", "radius_m=1e-300"}, "--known: radius_m is \"1e-300\", which is neither a number from ");
+  for (const char* folds : {"1", "few", "-2", "3.5"})
+    refused({"--folds", folds}, "--folds: give 0, or a whole number from 2");
+  for (const char* seed : {"-1", "1.5", "99999999999999999999"})
+    refused({"--seed", seed}, "--seed: give a whole number of at most 9 digits");
+  refused({"--out", ""}, "--out: name a folder");
   refused({"--threads", "0"}, "--threads");
+}
+
+TEST_F(CalibrateRefuses, AFolderWhereAResultIsToBeWritten) {
+  std::filesystem::create_directories(out() / "report.html");
+  const ProgramRun run = RunOnIt();
+  EXPECT_EQ(run.exit_code, kExitBadInput);
+  EXPECT_THAT(run.err, HasSubstr("report.html: is a folder where a file is to be written"));
+}
+
+TEST_F(CalibrateRefuses, AKnowledgeThatIsNone) {
+  Edit("session.yaml", "radius_m: 5.0e-4", "radius_m: 1.0e-30");
+  ExpectRefusal(RunOnIt(), HasSubstr("session.yaml:"));
 }
 
 TEST_F(CalibrateRefuses, TagsThatTheSessionDoesNotHave) {
@@ -115,6 +133,19 @@ TEST_F(CalibrateRefuses, TagsThatTheSessionDoesNotHave) {
 
 TEST_F(CalibrateRefuses, ToRunWithoutASession) {
   ExpectRefusal(RunLegible({"calibrate"}), HasSubstr("SESSION is required; see `legible calibrate --help`"));
+}
+
+TEST(Program, NamesACommandThatItDoesNotHave) {
+  const ProgramRun run = RunLegible({"bogus"});
+  EXPECT_EQ(run.exit_code, kExitBadInput);
+  EXPECT_EQ(run.err, "legible: unknown command bogus; see `legible --help`\n");
+}
+
+TEST(Program, SaysWhenItsOutputCannotBeWritten) {
+  std::ofstream full("/dev/full");
+  std::ostringstream err;
+  EXPECT_EQ(RunProgram({"--help"}, {full, err, false}), kExitNoResult);
+  EXPECT_EQ(err.str(), "legible: standard output cannot be written\n");
 }
 
 TEST(Program, RefusesToRunWithoutACommand) {

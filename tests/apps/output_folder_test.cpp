@@ -1,5 +1,9 @@
 #include "apps/output_folder.h"
 
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "tests/datasets/files.h"
 
 namespace legible {
@@ -48,15 +52,36 @@ TEST_F(OutputFolder, IsAsItWasWhenWritingFails) {
 }
 
 TEST_F(OutputFolder, TrialOfWritingLeavesNothing) {
-  DemandWritable(folder_.path());
-  DemandWritable(folder_.path() / "a" / "b" / "");
+  DemandWritable(folder_.path(), {"x"});
+  DemandWritable(folder_.path() / "a" / "b" / "", {"x"});
   EXPECT_THAT(folder_.Names(), IsEmpty());
+}
+
+TEST_F(OutputFolder, LosesWhatAKilledRunLeftAndKeepsWhatALivingOneWrites) {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  const std::string living = fmt::format(".{}.part", getppid());
+  folder_.Write(fmt::format(".{}.part/model.yaml", child), "half");
+  folder_.Write(living + "/model.yaml", "half");
+  folder_.Write(".x.part/kept", "");
+  DemandWritable(folder_.path(), {"x"});
+  EXPECT_THAT(folder_.Names(), UnorderedElementsAre(living, ".x.part"));
+}
+
+TEST_F(OutputFolder, CannotTakeAFileWhereAFolderHasItsName) {
+  folder_.Write("report.html/x", "");
+  EXPECT_THAT(InputErrorOf([&] {
+                DemandWritable(folder_.path(), {"model.yaml", "report.html"});
+              }),
+              testing::HasSubstr("report.html: is a folder where a file is to be written; "));
 }
 
 TEST_F(OutputFolder, BelowAFileCannotBeWritten) {
   const fs::path file = folder_.Write("file", "");
-  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file / "out"); }), testing::HasSubstr("cannot be written"));
-  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file); }), testing::HasSubstr("cannot be written"));
+  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file / "out", {"x"}); }),
+              testing::HasSubstr("cannot be written"));
+  EXPECT_THAT(InputErrorOf([&] { DemandWritable(file, {"x"}); }), testing::HasSubstr("cannot be written"));
   EXPECT_THAT(folder_.Names(), UnorderedElementsAre("file"));
 }
 

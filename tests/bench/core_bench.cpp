@@ -44,7 +44,7 @@ void BM_ForwardKinematics(benchmark::State& state) {
   const std::array<Solve, kCases> solves = RandomSolves(generator, robot);
   size_t i = 0;
   double iterations = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const Solve& solve = solves[i++ % kCases];
     const ForwardKinematicsResult result = ForwardKinematics(robot, solve.joint_readings_m, solve.guess);
     if (result.status != ForwardKinematicsStatus::kConverged) state.SkipWithError(ToString(result.status));
@@ -59,7 +59,7 @@ void BM_InverseKinematics(benchmark::State& state) {
   const GoughStewart robot = DesktopHexapod(generator, 0.002);
   const std::array<Solve, kCases> solves = RandomSolves(generator, robot);
   size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(InverseKinematics(robot, solves[i++ % kCases].guess));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(InverseKinematics(robot, solves[i++ % kCases].guess));
 }
 BENCHMARK(BM_InverseKinematics);
 
@@ -70,7 +70,7 @@ void BM_Undistort(benchmark::State& state, const Distortion& distortion) {
     point = Distort<double>(distortion, UniformVector(generator, -0.5, 0.5).head<2>());
   }
   size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(Undistort(distortion, points[i++ % kCases]));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(Undistort(distortion, points[i++ % kCases]));
 }
 BENCHMARK_CAPTURE(BM_Undistort, brown_conrady,
                   (Distortion() << -0.25, 0.09, 0.0008, -0.0006, -0.01, 0, 0, 0).finished());

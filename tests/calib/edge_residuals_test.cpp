@@ -58,6 +58,7 @@ std::vector<EdgeObservation> RandomEdges(std::mt19937_64& generator, const Unkno
 
 std::vector<WhitenedEdge> Whitened(const std::vector<EdgeObservation>& edges) {
   std::vector<WhitenedEdge> whitened;
+  whitened.reserve(edges.size());
   for (const EdgeObservation& edge : edges)
     whitened.emplace_back(edge, EdgeNoise{1.3, 2, 0.5}, Eigen::VectorXd::LinSpaced(kSamples, 0.2, 1));
   return whitened;

@@ -270,6 +270,19 @@ TEST(LegCalibration, WrongJointReadingsAreNamedAndDoNotCount) {
   }
 }
 
+// Where weak edges leave the pose to the tags, readings are judged by both.
+TEST(LegCalibration, TagsPredictTheReadingsTooAndLeaveRightOnesAlone) {
+  SyntheticOptions weak_edges = FewImages();
+  weak_edges.edge_sigma_px = 1.5;
+  const SyntheticSession session = GenerateSession(weak_edges);
+  LegCalibrationInput input = InputOf(session, session.observations);
+  input.tags = DrawTags(session, {.corner_sigma_px = 0.02});
+  const LegCalibration found = CalibrateLegs(input, {});
+  ASSERT_EQ(found.status, CalibrationStatus::kConverged) << found.message;
+  EXPECT_TRUE(found.outlying_readings.empty());
+  EXPECT_TRUE(found.weights_steady);
+}
+
 // Without readings and radii nothing but the tags says how large the robot is.
 TEST(LegCalibration, TagsSetTheScaleThatEdgesLeaveOpen) {
   const SyntheticSession session = GenerateSession(FewImages());

@@ -114,6 +114,15 @@ TEST(EstimateNoise, TellsTheCommonErrorsFromTheSamples) {
   EXPECT_NEAR(noise.tilt / (0.3 / 0.4), 1, 0.08);
 }
 
+// Free legs take up what their two edges have in common: little in the residuals does not mean little noise.
+TEST(EstimateNoise, DoesNotBelieveLittleCommonErrorWhereMostOfItWasFittedAway) {
+  std::mt19937_64 generator = TestGenerator();
+  constexpr int kEdges = 400;
+  const auto edges = DrawResiduals(generator, kEdges, 20, {.common_sigma_px = 0.4});
+  EXPECT_LT(MeanNoise(EstimateNoise(edges, 0)).shift, 0.3);
+  EXPECT_GE(MeanNoise(EstimateNoise(edges, 2 * kEdges * 0.5)).shift, 1);
+}
+
 // An edge whose samples scatter more than the others' has no more in common along it for that.
 TEST(EstimateNoise, TellsTheEdgesApart) {
   std::mt19937_64 generator = TestGenerator();

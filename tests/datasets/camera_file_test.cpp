@@ -102,6 +102,14 @@ TEST(CameraFile, AFocalLengthThatContradictsTheImageSizeIsRefused) {
             Complaint(file, 5, "camera_matrix has fx -1246.83 px; give a number greater than 0"));
 }
 
+TEST(CameraFile, PrincipalPointLiesInTheImage) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(ReadComplaint(folder, "654.12", "6541.2"),
+            Complaint(folder.path() / "camera.yaml", 5,
+                      "camera_matrix has cx 6541.2 px for an image 1280 px wide; give the principal point in "
+                      "pixels, in the image or near it"));
+}
+
 TEST(CameraFile, MatricesHaveTheirForm) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "camera.yaml";

@@ -1,5 +1,7 @@
 #include "datasets/joint_file.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "tests/datasets/files.h"
@@ -72,10 +74,12 @@ TEST(JointFile, RowsAreCompleteAndFinite) {
   EXPECT_EQ(ReadComplaint(folder, header + "b.png,1,2,3,4,5,6,7\n"),
             Complaint(file, 3, "8 fields in this row, 7 columns; give one field for each column"));
   for (const std::string field : {"nan", "inf", "", "x", "0.3 m"}) {
-    EXPECT_EQ(ReadComplaint(folder, header + "b.png,1,2,3,4," + field + ",6\n"),
-              Complaint(file, 3,
-                        "q5_m is \"" + field +
-                            "\", not a finite number; give the reading in metres, or take this row out"));
+    EXPECT_EQ(
+        ReadComplaint(folder, header + fmt::format("b.png,1,2,3,4,{},6\n", field)),
+        Complaint(file, 3,
+                  fmt::format("q5_m is \"{}\", not a finite number; give the reading in metres, or take "
+                              "this row out",
+                              field)));
   }
 }
 

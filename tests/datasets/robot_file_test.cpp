@@ -90,6 +90,11 @@ TEST(RobotFile, ImpossibleLegsAreRefusedWhereTheyStand) {
           file, 5,
           "legs[2] has a shortest length (joint_range_m[1] + joint_offset_m) of 0.309 m and a radius of 12 "
           "m; give lengths in metres, with the leg longer than it is thick"));
+  EXPECT_EQ(
+      ReadComplaint(folder, "[0.27, -0.02, 0]", "[130, -20, 0]"),
+      Complaint(file, 5,
+                "legs[2].base_joint_m is 131.5 m from the origin of its frame; give lengths in metres, not "
+                "in millimetres"));
   EXPECT_EQ(ReadComplaint(folder, "[0.31, 0.5]", "[0.5, 0.31]"),
             Complaint(file, 6,
                       "legs[2].joint_range_m is [0.5, 0.31], reversed or empty; give [shortest, longest]"));

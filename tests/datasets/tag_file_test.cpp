@@ -98,12 +98,16 @@ TEST(TagFile, ImpossibleTagsAreRefused) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "tags.yaml";
   EXPECT_EQ(ReadComplaint(folder, "id: 7", "id: -7"),
-            Complaint(file, 15, "groups[2].tags[1] has the id -7; give 0 or more"));
-  EXPECT_EQ(ReadComplaint(folder, "[-0.02, -0.02, 0], [0.02, -0.02, 0], [0.02, 0.02, 0], [-0.02, 0.02, 0]",
-                          "[0, 0, 0], [0.02, 0, 0], [0.03, 0, 0], [0.01, 0, 0]"),
-            Complaint(file, 15,
-                      "groups[2].tags[1].corners_m enclose no area; "
-                      "give bottom-left, bottom-right, top-right, top-left of the black border"));
+            Complaint(file, 15, "groups[2].tags[1] has the id -7; tag36h11 has the ids 0 to 586"));
+  EXPECT_EQ(ReadComplaint(folder, "id: 7", "id: 587"),
+            Complaint(file, 15, "groups[2].tags[1] has the id 587; tag36h11 has the ids 0 to 586"));
+  for (const char* corners : {"[0, 0, 0], [0.02, 0, 0], [0.03, 0, 0], [0.01, 0, 0]",
+                              "[0, 0, 0], [0, 0, 0], [0.02, 0.02, 0], [0, 0.02, 0]"})
+    EXPECT_EQ(ReadComplaint(folder, "[-0.02, -0.02, 0], [0.02, -0.02, 0], [0.02, 0.02, 0], [-0.02, 0.02, 0]",
+                            corners),
+              Complaint(file, 15,
+                        "groups[2].tags[1].corners_m are not those of a square; "
+                        "give bottom-left, bottom-right, top-right, top-left of the black border"));
   EXPECT_EQ(ReadComplaint(folder, ", [0.02, -0.02, 0], [0.02, 0.02, 0]", ", [0.02, 0.02, 0]"),
             Complaint(file, 15, "groups[2].tags[1].corners_m has 3 values; give 4"));
   EXPECT_EQ(ReadComplaint(folder, "translation_m: 0.003", "translation_m: 0"),

@@ -60,7 +60,8 @@ GoughStewart DesktopHexapod(std::mt19937_64& generator, double perturbation_m) {
   robot.name = "desktop hexapod";
   robot.home.translation = {0, 0, 0.3124};
   for (int i = 0; i < kLegCount; ++i) {
-    const double pair_rad = 2 * std::numbers::pi / 3 * (i / 2);
+    const int pair = i / 2;
+    const double pair_rad = 2 * std::numbers::pi / 3 * pair;
     const double side = i % 2 == 0 ? 1 : -1;
     Leg& leg = robot.legs[i];
     leg.base_joint_m = OnCircle(kBaseRadius_m, pair_rad + side * kAlpha_rad) +

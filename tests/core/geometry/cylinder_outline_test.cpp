@@ -27,7 +27,7 @@ Cylinder RandomCylinder(std::mt19937_64& generator) {
   const Eigen::Vector3d centre = Eigen::Vector3d(0, 0, 1) + UniformVector(generator, -0.3, 0.3);
   for (;;) {
     const Eigen::Vector3d half = 0.2 * (UniformRotation(generator) * Eigen::Vector3d::UnitX());
-    const Cylinder leg{centre - half, centre + half, Uniform(generator, 0.003, 0.03)};
+    Cylinder leg{centre - half, centre + half, Uniform(generator, 0.003, 0.03)};
     if (leg.Axis().moment.norm() > 0.1) return leg;
   }
 }

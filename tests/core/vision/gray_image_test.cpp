@@ -24,6 +24,14 @@ class GrayImageFile : public testing::Test {
     return ReadGrayImage(file_);
   }
 
+  // Of a chunk's type and data, which end where the checksum stands.
+  void SetChecksum(size_t first, size_t end) {
+    const auto checksum =
+        crc32(0, reinterpret_cast<const Bytef*>(bytes_.data() + first), static_cast<uInt>(end - first));
+    for (size_t byte = 0; byte < 4; ++byte)
+      bytes_[end + byte] = static_cast<char>(checksum >> (24 - 8 * byte));
+  }
+
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) /
       (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".png");
@@ -54,14 +62,28 @@ TEST_F(GrayImageFile, ThatIsDamagedIsNoImageAndPrintsNothing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+// The checksums of the chunks can be right, and what the pixels are packed in wrong all the same.
+TEST_F(GrayImageFile, WhosePixelsCannotBeUnpackedIsNoImageAndPrintsNothing) {
+  const auto big_endian = [&](size_t at) {
+    std::uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes_[at + i]);
+    return value;
+  };
+  size_t chunk = 8;
+  while (std::string(bytes_.data() + chunk + 4, 4) != "IDAT") chunk += 12 + big_endian(chunk);
+  const size_t length = big_endian(chunk);
+  for (size_t i = length / 2; i < length / 2 + 40; ++i) bytes_[chunk + 8 + i] = '\xff';
+  SetChecksum(chunk + 4, chunk + 8 + length);
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(ReadBack());
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 // OpenCV has a limit of its own, beyond which it throws.
 TEST_F(GrayImageFile, ThatClaimsToBeHugeIsNoImage) {
   constexpr size_t kHeader = 12, kHeaderEnd = 29;  // type and data of the first chunk
   for (size_t byte = 16; byte < 24; ++byte) bytes_[byte] = byte % 4 == 1 ? 1 : 0;  // 65536 x 65536
-  const auto checksum =
-      crc32(0, reinterpret_cast<const Bytef*>(bytes_.data() + kHeader), kHeaderEnd - kHeader);
-  for (size_t byte = 0; byte < 4; ++byte)
-    bytes_[kHeaderEnd + byte] = static_cast<char>(checksum >> (24 - 8 * byte));
+  SetChecksum(kHeader, kHeaderEnd);
   EXPECT_FALSE(ReadBack());
 }
 

@@ -23,15 +23,15 @@ Middle MiddleOf(const PredictedEdges& edges, size_t leg, double share) {
   return {(first[at].point_px + second[at].point_px) / 2, second[at].normal_px};
 }
 
-TEST(LockOnLegs, FindsLegsFortyPixelsFromTheirPrediction) {
+// Displaces the robot, and expects the lock to find most legs where they are from where they were predicted.
+void ExpectLocks(const Vector6d& displacement, const LegLockOptions& options, double least_displacement_px,
+                 double within_px) {
   std::mt19937_64 generator = TestGenerator();
   const Scene scene(true);
   const PredictedEdges truth = PredictEdges(scene.Legs(), scene.camera, {});
   const GrayImage image = WithNoise(RenderLegs(scene.Legs(), scene.camera, {}), 2, generator);
-  Vector6d displacement;
-  displacement << 0.025, -0.018, 0.02, 0.02, 0.03, 0.03;
   const PredictedEdges predicted = PredictEdges(scene.LegsDisplaced(displacement), scene.camera, {});
-  const auto locks = LockOnLegs(image, predicted, {});
+  const auto locks = LockOnLegs(image, predicted, options);
   double furthest_px = 0;
   int locked = 0;
   for (size_t leg = 0; leg < kLegCount; ++leg) {
@@ -40,11 +40,25 @@ TEST(LockOnLegs, FindsLegsFortyPixelsFromTheirPrediction) {
     if (!locks[leg]) continue;
     ++locked;
     const double shift_px = (locks[leg]->shift_at_a_px + locks[leg]->shift_at_b_px) / 2;
-    // A leg this bright reaches the largest contrast that counts over some 3 px to either side of its place.
-    EXPECT_NEAR(shift_px, from.across_px.dot(to.centre_px - from.centre_px), 3.5) << "leg " << leg + 1;
+    EXPECT_NEAR(shift_px, from.across_px.dot(to.centre_px - from.centre_px), within_px) << "leg " << leg + 1;
   }
-  EXPECT_GT(furthest_px, 38);
+  EXPECT_GT(furthest_px, least_displacement_px);
   EXPECT_GE(locked, 4);
+}
+
+TEST(LockOnLegs, FindsLegsFortyPixelsFromTheirPrediction) {
+  Vector6d displacement;
+  displacement << 0.025, -0.018, 0.02, 0.02, 0.03, 0.03;
+  // A leg this bright reaches the largest contrast that counts over some 3 px to either side of its place.
+  ExpectLocks(displacement, {}, 38, 3.5);
+}
+
+TEST(LockOnLegs, FindsLegsAsFarOffAsTheRangeSays) {
+  Vector6d displacement;
+  displacement << 0.025, -0.07, -0.055, 0.02, 0.03, 0.03;
+  // From here perspective too takes some pixels that no shift, roll and growth can; the search for edges
+  // has 12.
+  ExpectLocks(displacement, {.range_px = 120}, 100, 6);
 }
 
 TEST(LockOnLegs, FindsNothingInAnEmptyImage) {

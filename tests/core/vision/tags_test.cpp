@@ -1,7 +1,15 @@
 #include "core/vision/tags.h"
 
 #include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
 #include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
+#include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +103,8 @@ GrayImage RenderBoard(const Camera& camera, std::mt19937_64& generator) {
     for (int x = 0; x < camera.width_px; ++x) {
       double sum = 0;
       for (int ray = 0; ray < kSide * kSide; ++ray) {
-        const Eigen::Vector2d offset((ray % kSide + 0.5) / kSide - 0.5, (ray / kSide + 0.5) / kSide - 0.5);
+        const int row = ray / kSide, column = ray % kSide;
+        const Eigen::Vector2d offset((column + 0.5) / kSide - 0.5, (row + 0.5) / kSide - 0.5);
         const Eigen::Vector3d sight = Unproject(camera, Eigen::Vector2d(x, y) + offset).value().homogeneous();
         const Eigen::Vector3d direction = group_from_camera.rotation * sight;
         const double depth = -group_from_camera.translation.z() / direction.z();
@@ -194,8 +203,34 @@ TEST(TagDetector, KnowsEveryFamilyThatASessionMayName) {
     TagDetector detector("none of them");
     FAIL();
   } catch (const std::invalid_argument& error) {
-    for (const std::string& family : kTagFamilies)
-      EXPECT_NE(std::string(error.what()).find(family), std::string::npos) << family;
+    for (const TagFamily& family : kTagFamilies)
+      EXPECT_NE(std::string(error.what()).find(family.name), std::string::npos) << family.name;
+  }
+}
+
+TEST(TagFamilies, HaveAsManyTagsAsLibapriltagHas) {
+  struct Made {
+    const char* name;
+    apriltag_family_t* (*create)();
+    void (*destroy)(apriltag_family_t*);
+  };
+  const std::vector<Made> all = {
+      {"tag36h11", tag36h11_create, tag36h11_destroy},
+      {"tag36h10", tag36h10_create, tag36h10_destroy},
+      {"tag25h9", tag25h9_create, tag25h9_destroy},
+      {"tag16h5", tag16h5_create, tag16h5_destroy},
+      {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
+      {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
+      {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+      {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
+      {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
+  };
+  ASSERT_EQ(all.size(), kTagFamilies.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    apriltag_family_t* family = all[i].create();
+    EXPECT_EQ(kTagFamilies[i].name, all[i].name);
+    EXPECT_EQ(kTagFamilies[i].tags, static_cast<int>(family->ncodes)) << all[i].name;
+    all[i].destroy(family);
   }
 }
 
