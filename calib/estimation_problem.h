@@ -73,6 +73,7 @@ struct DrawnBaseResidual {
 };
 DrawnBaseResidual EvaluateDrawnBase(const EstimationProblem& problem, const SharedParameters& shared);
 
+// The base joints A of all legs, in the camera frame, m.
 LegPoints BaseJointsInCamera(const SharedParameters& shared);
 
 // Of each of the problem's tag placements, where the problem stands.

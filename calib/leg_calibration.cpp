@@ -298,6 +298,7 @@ double LegCalibration::Misfit() const { return std::max({noise.sample, noise.shi
 void LegCalibrationOptions::Check() const {
   if (!(default_joint_reading_sigma_m > 0))
     throw std::invalid_argument("default_joint_reading_sigma_m must be positive");
+  if (!(lasting_shading >= 0)) throw std::invalid_argument("lasting_shading must not be negative");
   if (max_iterations < 1 || threads < 1)
     throw std::invalid_argument("max_iterations and threads must be at least 1");
 }

@@ -2,16 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "core/geometry/tangents.h"
+
 namespace legible {
 namespace {
-
-// Two unit vectors across `direction`, orthogonal to one another.
-Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& direction) {
-  Eigen::Matrix<double, 3, 2> tangents;
-  tangents.col(0) = direction.unitOrthogonal();
-  tangents.col(1) = direction.normalized().cross(tangents.col(0));
-  return tangents;
-}
 
 // Residual row of the reading |b - A| - offset - q, with its derivatives by A, b and the offset.
 void FillReading(const LegParameters& leg, const LegTip& tip, const LegObservation& observation,

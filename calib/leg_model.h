@@ -64,6 +64,7 @@ struct LegResiduals {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 6> d_pose;
 };
 
+// Residuals of the observation: one a sample, and one for its reading.
 Eigen::Index RowCount(const LegObservation& observation);
 
 // Nothing where the model cannot produce the edges (camera centre inside a leg, a lens folded over).

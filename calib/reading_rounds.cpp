@@ -120,7 +120,6 @@ void ReadingRounds::Loosen(double scale) {
 }
 
 double ReadingRounds::Reweight() {
-  constexpr double kLeastWeight = 1e-8;
   if (rows_.empty()) return 0;
   std::vector<double> squares;
   squares.reserve(rows_.size());
@@ -131,7 +130,7 @@ double ReadingRounds::Reweight() {
     const double before = row.weight;
     row.weight = RobustWeight(AsNormal(row.square / scale, static_cast<double>(row.readings.size())));
     change += std::abs(row.weight - before) * static_cast<double>(row.readings.size());
-    SetSigmas(row, 1 / std::sqrt(std::max(row.weight, kLeastWeight)));
+    SetSigmas(row, SigmaFactor(row.weight));
   }
   return change;
 }

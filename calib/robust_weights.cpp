@@ -186,6 +186,11 @@ double RobustWeight(double normalised) {
   return 0.5 + 0.5 * std::cos(std::numbers::pi * (size - kFullUpTo) / (kZeroFrom - kFullUpTo));
 }
 
+double SigmaFactor(double weight) {
+  constexpr double kLeastWeight = 1e-8;
+  return 1 / std::sqrt(std::max(weight, kLeastWeight));
+}
+
 double MedianScale(const std::vector<EdgeResidualSet>& edges) {
   std::vector<double> sizes;
   for (const EdgeResidualSet& edge : edges)

@@ -12,6 +12,9 @@ namespace legible {
 // weight with a cosine flank). Costs 0.1 % of efficiency on normal noise.
 double RobustWeight(double normalised);
 
+// By what a sigma is multiplied so that its observation counts with `weight`; finite where that is 0.
+double SigmaFactor(double weight);
+
 // Residuals of one edge in one image.
 struct EdgeResidualSet {
   int image = 0;

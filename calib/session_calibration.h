@@ -23,7 +23,8 @@ struct SessionCalibrationOptions {
   int folds = 5;                      // of the cross-validation; 0: none
   std::optional<std::uint64_t> seed;  // of which images are held out together; none: every folds-th
   int threads = 2;
-  // stage: "reading", "finding edges", "solving", "checking"; done of total.
+  // stage: "reading", "finding tags", "looking for the legs", "finding edges", "solving", "checking"; done of
+  // total. Called from several threads, at times at once.
   std::function<void(const std::string& stage, int done, int total)> progress;
 
   void Check() const;  // throws std::invalid_argument

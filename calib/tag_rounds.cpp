@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "calib/robust_weights.h"
+
 namespace legible {
 
 TagRounds::TagRounds(EstimationProblem& problem) : problem_(problem) {
@@ -52,9 +54,8 @@ double TagRounds::Reweight(bool by_median) {
 }
 
 void TagRounds::SetSigmas() {
-  constexpr double kLeastWeight = 1e-8;
   for (size_t i = 0; i < sources_.size(); ++i)
-    sources_[i].tag->sigma_px = sigma_px_ / std::sqrt(std::max(errors_[i].weight, kLeastWeight));
+    sources_[i].tag->sigma_px = sigma_px_ * SigmaFactor(errors_[i].weight);
 }
 
 std::vector<TagGroupFit> TagRounds::Fits(const std::vector<ObservedTagGroup>& groups) const {

@@ -95,7 +95,7 @@ LensModel LensFromYaml(const YamlValue& model) {
   return LensModel::kPinhole;
 }
 
-std::string LensName(LensModel lens) {
+std::string RosLensName(LensModel lens) {
   if (lens == LensModel::kRational) return "rational_polynomial";
   return lens == LensModel::kBrownConrady ? "plumb_bob" : "none";
 }
@@ -109,7 +109,7 @@ void ReadDistortion(const YamlValue& section, Camera& camera) {
   const size_t count = static_cast<size_t>(camera.lens);
   if (values.size() != count) {
     coefficients->Fail(
-        fmt::format("has {} values, and {} has {}", values.size(), LensName(camera.lens), count),
+        fmt::format("has {} values, and {} has {}", values.size(), RosLensName(camera.lens), count),
         "give as many as the model has, or name another distortion_model");
   }
   std::copy(values.begin(), values.end(), camera.distortion.begin());
@@ -164,7 +164,7 @@ std::string CameraToYaml(const Camera& camera) {
       "camera_matrix: {}\n"
       "distortion_model: {}\n"
       "distortion_coefficients: {}\n",
-      camera.width_px, camera.height_px, MatrixText(3, 3, matrix), LensName(camera.lens),
+      camera.width_px, camera.height_px, MatrixText(3, 3, matrix), RosLensName(camera.lens),
       MatrixText(1, count, coefficients));
 }
 

@@ -38,6 +38,8 @@ struct EdgeBand {
   std::vector<BandCell> cells;
 };
 
+// The window reaches from outside_px outside the curve to inside_px into the leg; its points stand in
+// order along the leg, and between two of which one has an obstacle there is no cell.
 EdgeBand CollectBand(const GrayImage& image, const std::vector<PredictedEdgePoint>& curve, double outside_px,
                      double inside_px);
 
@@ -63,8 +65,6 @@ struct BandBin {
   Eigen::Array4f sums =
       Eigen::Array4f::Zero();  // of inside_px and brightness, and of background and leg of their cells
   float count = 0;
-
-  double MeanBrightness() const { return sums[1] / count; }
 };
 using BandBins = std::vector<BandBin, Eigen::aligned_allocator<BandBin>>;
 

@@ -6,20 +6,13 @@
 #include <limits>
 
 #include "core/geometry/edge_distance.h"
+#include "core/geometry/tangents.h"
 
 namespace legible {
 namespace {
 
 constexpr int kRounds = 4;
 constexpr double kOutlierSigmas = 4, kOutlierFloor_px = 0.1;
-
-// Unit vectors across the normal: changes of it.
-Eigen::Matrix<double, 3, 2> TangentsOf(const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 3, 2> tangents;
-  tangents.col(0) = normal.unitOrthogonal();
-  tangents.col(1) = normal.cross(tangents.col(0));
-  return tangents;
-}
 
 // Distances of the samples from the line, infinite where there is none, and the weighted normal equations of
 // the change of the normal along the tangents.

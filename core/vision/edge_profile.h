@@ -69,11 +69,13 @@ BlurEvidence EvidenceOnBlur(const EdgeProfile& profile, const ProfileFit& fit,
 std::optional<ProfileFit> FitSimplestModel(const EdgeProfile& profile, double start_px,
                                            const ProfileFitOptions& options);
 
-// What of the brightness that a fit predicts is the background's and what the leg's.
+// What of the brightness that a fit predicts is the background's and what the leg's, grey levels: their sum
+// is the profile.
 struct BrightnessParts {
   double background;
   double leg;
 };
+// At distances inside_px from the line that the fit's profile was taken along.
 std::vector<BrightnessParts> PredictParts(const ProfileFit& fit, const std::vector<double>& inside_px,
                                           const ProfileFitOptions& options);
 

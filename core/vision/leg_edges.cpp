@@ -42,8 +42,11 @@ constexpr const char* kNoEdge = "no edge in the brightness across it";
 
 // One edge on its way through the stages.
 struct Work {
-  LegEdge* result = nullptr;
-  const LegInCamera* leg = nullptr;
+  Work(LegEdge& edge, const LegInCamera& of_leg, PredictedEdge prediction)
+      : result(&edge), leg(&of_leg), predicted(std::move(prediction)) {}
+
+  LegEdge* result;
+  const LegInCamera* leg;
   PredictedEdge predicted;  // its points follow `normal`
   EdgeBand band;
   std::vector<std::pair<size_t, size_t>> stretches;  // of the band's cells: one sample each
@@ -77,12 +80,12 @@ void FlattenBy(LevelShape shape, Work& work) {
   work.profile = FlatProfile(work.whole, work.shape, kGrid, kFineBins_px);
 }
 
+// Both keep the fit where there is none at the new blur.
 void FitAt(double blur_px, Work& work) {
   work.fit_options.blur_px = blur_px;
-  work.fit = FitSimplestModel(work.profile, 0, work.fit_options);
+  if (auto fit = FitSimplestModel(work.profile, 0, work.fit_options)) work.fit = std::move(fit);
 }
 
-// Keeps the fit where there is none at the other blur.
 void RefitAt(double blur_px, Work& work) {
   work.fit_options.blur_px = blur_px;
   if (const auto fit = Refit(work.profile, *work.fit, work.fit_options)) work.fit = fit;
@@ -187,17 +190,8 @@ class Measurement {
       LegEdge& edge = result_.edges[static_cast<size_t>(i)];
       edge.leg = i / 2;
       edge.edge = i % 2;
-      works_.push_back({&edge,
-                        &legs_[static_cast<size_t>(i / 2)],
-                        predicted[static_cast<size_t>(i / 2)][static_cast<size_t>(i % 2)],
-                        {},
-                        {},
-                        {},
-                        {},
-                        {},
-                        {},
-                        {},
-                        {}});
+      const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
+      works_.emplace_back(edge, legs_[leg], predicted[leg][side]);
     }
     if (options.lock) Lock(predicted);
     for (Work& work : works_) CheckLength(work);
@@ -279,7 +273,6 @@ class Measurement {
   void ChooseModels(double blur) {
     ForEachFit([&](Work& work) {
       FitAt(blur, work);
-      if (!work.fit) return;
       FlattenBy(ShapeOf(*work.fit, work.fit_options, kGrid), work);
     });
   }
@@ -311,9 +304,8 @@ class Measurement {
 
   void Recentre(double blur) {
     ForEachFit([&](Work& work) {
-      for (int move = 0; move < kMostMoves && work.fit && LayAlongEdge(options_, work); ++move)
-        FitAt(blur, work);
-      if (work.fit) FlattenBy(ShapeOf(*work.fit, work.fit_options, kGrid), work);
+      for (int move = 0; move < kMostMoves && LayAlongEdge(options_, work); ++move) FitAt(blur, work);
+      FlattenBy(ShapeOf(*work.fit, work.fit_options, kGrid), work);
     });
   }
 
@@ -384,7 +376,9 @@ class Measurement {
 void LegEdgeOptions::Check() const {
   if (!(search_px > 0) || !(least_length_px > 0) || !(sample_length_px > 0) || !(visibility.step_px > 0))
     throw std::invalid_argument("LegEdgeOptions: lengths must be positive");
-  if (rough_bend_px < 0) throw std::invalid_argument("LegEdgeOptions: rough_bend_px must not be negative");
+  if (!(rough_bend_px >= 0))
+    throw std::invalid_argument("LegEdgeOptions: rough_bend_px must not be negative");
+  if (blur_px && !(*blur_px > 0)) throw std::invalid_argument("LegEdgeOptions: blur_px must be positive");
   if (lock) lock->Check();
 }
 

@@ -36,7 +36,8 @@ struct LegEdge {
   int edge = 0;          // 0 or 1
   std::string left_out;  // the reason; empty: measured
   EdgeObservation observation;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // outline normal of the line through the samples
+  // Outline normal of the line through the samples, in the camera frame, unit, away from the leg.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   // Of `normal`, rank 2: by the samples' own sigmas; what moves all of them alike is the observation's
   // common_sigma_px.
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();

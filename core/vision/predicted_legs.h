@@ -23,6 +23,7 @@ struct LegInCamera {
 };
 using LegsInCamera = std::array<LegInCamera, kLegCount>;
 
+// The robot's legs as the camera sees them, of the frames base, platform and camera.
 LegsInCamera PlaceLegs(const GoughStewart& robot, const Rigid3& camera_from_base,
                        const Rigid3& base_from_platform);
 

@@ -42,6 +42,7 @@ struct GroupSighting {
   std::vector<Eigen::Vector3d> corners_in_group_m;
   std::vector<Eigen::Vector2d> corners_px;
 };
+// The group's tags among the detections of one image, by id; corners in the order of the drawing.
 GroupSighting Match(const TagGroup& group, const std::vector<TagDetection>& detections);
 
 struct GroupPose {
