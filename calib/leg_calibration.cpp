@@ -154,8 +154,12 @@ SolveSummary Calibrator::SolveRound() {
   SolveOptions solve;
   solve.max_iterations = options_.max_iterations;
   solve.threads = options_.threads;
+  // Weights and noise stand still within the round: the residuals go with the root of the cost.
   if (options_.progress)
-    solve.progress = [this](int iteration, double) { options_.progress(iterations_ + iteration, Rms()); };
+    solve.progress = [this, rms_px = Rms(), first = 0.0](int iteration, double cost) mutable {
+      if (iteration == 0) first = cost;
+      options_.progress(iterations_ + iteration, first > 0 ? rms_px * std::sqrt(cost / first) : rms_px);
+    };
   const SolveSummary summary = Solve(problem_, solve);
   iterations_ += summary.iterations;
   return summary;
