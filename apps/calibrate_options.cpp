@@ -114,17 +114,15 @@ void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
           "--known",
           [&settings](const std::vector<std::string>& texts) { settings.known = ParseAllKnown(texts); },
           fmt::format("How well something is known beforehand (1 sigma),\nover what session.yaml says; "
-                      "NAME=none: not "
-                      "at all.\nComma separated or repeated. Names:\n{}",
+                      "NAME=none: not at all.\nComma separated or repeated. Names:\n{}",
                       fmt::join(KnownNames(), "\n")))
       ->type_name("NAME=SIGMA")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--tags", settings.tags,
-          "Tag groups of tags.yaml whose corners count as\nobservations, or all; without it they only "
-          "place\nthe camera at first and check the result. Comma\nseparated or repeated")
+      .add_option("--tags", settings.tags,
+                  "Tag groups of tags.yaml whose corners count as\nobservations, or all; without it they "
+                  "only place\nthe camera at first and check the result. Comma\nseparated or repeated")
       ->type_name("GROUP")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -132,10 +130,9 @@ void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
       "--no-readings", [&settings] { settings.use_readings = false; },
       "Leave the joint readings out of the estimate (they\nstill say where to look for the legs). Where "
       "nothing\nknown, held or shown by --tags then sets a scale,\nas with --free-legs");
-  command.add_flag(
-      "--free-legs", settings.free_legs,
-      "Edges only: no readings, no rigid platform (each\nleg's direction is free in each image), and "
-      "nothing\nknown beforehand but by --known and --tags");
+  command.add_flag("--free-legs", settings.free_legs,
+                   "Edges only: no readings, no rigid platform (each\nleg's direction is free in each "
+                   "image), and nothing\nknown beforehand but by --known and --tags");
 }
 
 void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {

@@ -70,8 +70,7 @@ std::string TagSentence(const Session& session, const TagCheck& check) {
 std::string TagFitSentence(const LegCalibration& calibration, const TagGroupFit& fit) {
   return fmt::format(
       "tags {} as observations: {} seen{}, corners {:.3f} px rms from where the model has them (all tags "
-      "show a σ of "
-      "{:.3f} px in x and in y); placed {:.1f} σ from where tags.yaml has them",
+      "show a σ of {:.3f} px in x and in y); placed {:.1f} σ from where tags.yaml has them",
       fit.group, fit.tags,
       fit.tags_left_out > 0 ? fmt::format(" ({} misread, left out)", fit.tags_left_out) : "", fit.rms_px,
       calibration.tag_sigma_px, fit.placement_sigmas);

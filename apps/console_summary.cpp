@@ -14,8 +14,7 @@ constexpr int kTooFewImages = 4;  // whatever is open, more of them come first
 constexpr char kLegsNotFound[] =
     "the legs were not found where the session puts them. Usual causes: camera_from_base or camera_matrix in "
     "camera.yaml far off (tags on the base help), legs in another order in joints.csv than in robot.yaml, "
-    "lengths "
-    "not in metres, little contrast between legs and background.";
+    "lengths not in metres, little contrast between legs and background.";
 constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json has all
 
 std::string Capitalised(std::string text) {

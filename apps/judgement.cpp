@@ -59,28 +59,27 @@ void AddStart(const CalibrationRun& run, Sentences& sentences) {
                                     run.session.tags->family));
   for (const std::string& sentence : run.result.misfit_tags) sentences.push_back(sentence);
   if (!run.result.first_look.empty())
-    sentences.push_back(fmt::format(
-        "a first look at the legs did not refine where the camera is ({}): the edges were searched "
-        "from {} as it stands",
-        run.result.first_look, run.result.first_pose_from));
+    sentences.push_back(
+        fmt::format("a first look at the legs did not refine where the camera is ({}): the edges were "
+                    "searched from {} as it stands",
+                    run.result.first_look, run.result.first_pose_from));
 }
 
 void AddReadings(const CalibrationRun& run, Sentences& sentences) {
   for (const std::string& sentence : OutlyingReadingSentences(run))
     sentences.push_back(fmt::format("joints.csv: {}", sentence));
   if (const double rms = run.result.calibration.reading_rms; rms > kReadingMisfit)
-    sentences.push_back(fmt::format(
-        "the joint readings miss the model's leg lengths by {:.1f} of their σ: the readings are worse "
-        "than said, or legs bend",
-        rms));
+    sentences.push_back(
+        fmt::format("the joint readings miss the model's leg lengths by {:.1f} of their σ: the readings are "
+                    "worse than said, or legs bend",
+                    rms));
 }
 
 void AddExtent(const CalibrationRun& run, Sentences& sentences) {
   if (const int images = CountUsedImages(run.result); images < kFewImages)
     sentences.push_back(
         fmt::format("only {} image{} used: too few to see from the residuals alone that the model holds in "
-                    "other poses; forty "
-                    "in clearly different poses are a good number",
+                    "other poses; forty in clearly different poses are a good number",
                     images, images == 1 ? " was" : "s were"));
   size_t edges = 0;
   for (const ImageOutcome& image : run.result.images) edges += image.edges.edges.size();
@@ -95,8 +94,7 @@ void AddMisfit(const CalibrationRun& run, Sentences& sentences) {
   if (const double misfit = calibration.Misfit(); misfit > kMisfit)
     sentences.push_back(
         fmt::format("the edges lie {:.1f} times as far from the model as their own scatter allows: something "
-                    "held or known "
-                    "beforehand is wrong, the lens model too poor, or legs bend",
+                    "held or known beforehand is wrong, the lens model too poor, or legs bend",
                     misfit));
   if (!calibration.weights_steady)
     sentences.emplace_back(
@@ -107,15 +105,15 @@ void AddHeldOut(const CalibrationRun& run, Sentences& sentences) {
   const SessionCalibration& result = run.result;
   const double ratio = result.held_out_rms_px.value_or(0) / result.calibration.rms_px;
   if (ratio > kHeldOutRatio)
-    sentences.push_back(fmt::format(
-        "the error in images held out is {:.1f} times that of the fit: more images, or more varied "
-        "poses, would make the model more reliable in new ones",
-        ratio));
+    sentences.push_back(
+        fmt::format("the error in images held out is {:.1f} times that of the fit: more images, or more "
+                    "varied poses, would make the model more reliable in new ones",
+                    ratio));
   if (result.held_out_folds_failed > 0)
-    sentences.push_back(fmt::format(
-        "in {} of {} turns the other images alone did not lead to a model: the figure for images held out is "
-        "without those of these turns",
-        result.held_out_folds_failed, run.options.folds));
+    sentences.push_back(
+        fmt::format("in {} of {} turns the other images alone did not lead to a model: the figure for images "
+                    "held out is without those of these turns",
+                    result.held_out_folds_failed, run.options.folds));
 }
 
 void AddPoorlyKnown(const CalibrationRun& run, Sentences& sentences) {

@@ -200,8 +200,7 @@ class SessionCalibrator {
     if (!session_.camera_from_base)
       throw std::invalid_argument(
           "the session does not say where the camera is; give camera_from_base in camera.yaml (a tape "
-          "measure will "
-          "do), or tags on the base");
+          "measure will do), or tags on the base");
     prediction_.camera_from_base = *session_.camera_from_base;
     result_.first_pose_from = "camera.yaml";
   }
