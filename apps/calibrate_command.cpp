@@ -121,7 +121,7 @@ void Print(const CalibrationRun& run, const FoundParameters& found, const std::s
     console.out << json;
   else
     console.out << SummaryText(run, found) << FilesText(run);
-  console.err << WhyThereIsNoModel(run);
+  console.err << FailureText(run);
 }
 
 }  // namespace

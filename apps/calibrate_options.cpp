@@ -140,7 +140,8 @@ void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
       .add_option("--folds", settings.folds,
                   "Images are held out in so many turns to check\nthe model; 0: not at all")
       ->check([](const std::string& text) {
-        return IsWholeNumber(text) && text != "1" ? std::string() : "give 0, or a whole number from 2";
+        return IsWholeNumber(text) && std::stoi(text) != 1 ? std::string()
+                                                           : "give 0, or a whole number from 2";
       })
       ->type_name("N")
       ->capture_default_str();

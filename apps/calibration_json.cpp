@@ -97,7 +97,7 @@ ordered_json HeldOutJson(const CalibrationRun& run) {
   for (const ImageOutcome& image : run.result.images)
     if (image.held_out_rms_px) images.push_back({{"name", image.name}, {"rms_px", *image.held_out_rms_px}});
   return {{"rms_px", OrNull(run.result.held_out_rms_px)},
-          {"folds", run.options.folds},
+          {"folds", run.result.held_out_folds},
           {"folds_failed", run.result.held_out_folds_failed},
           {"images", images}};
 }
@@ -147,6 +147,8 @@ void AddFit(const CalibrationRun& run, ordered_json& json) {
                            {"shift", if_fitted(calibration.noise.shift)},
                            {"tilt", if_fitted(calibration.noise.tilt)}};
   json["joint_reading_rms_sigma"] = has_readings ? calibration.reading_rms : kUnknown;
+  json["joint_reading_scatter"] = has_readings ? calibration.reading_scatter : kUnknown;
+  json["weights_steady"] = calibration.weights_steady;
   json["joint_readings_left_out"] = OutlyingReadingSentences(run);
   json["iterations"] = calibration.iterations;
 }
@@ -154,7 +156,7 @@ void AddFit(const CalibrationRun& run, ordered_json& json) {
 void AddObservations(const CalibrationRun& run, ordered_json& json) {
   json["images_used"] = CountUsedImages(run.result);
   json["images_left_out"] = LeftOutJson(run);
-  json["edges_used"] = CountUsedEdges(run.result);
+  json["edges_used"] = CountEdges(run.result).used;
   json["samples_used"] = run.result.calibration.samples;
 }
 
@@ -180,7 +182,7 @@ void AddProvenance(const CalibrationRun& run, ordered_json& json) {
 ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found) {
   const LegCalibration& calibration = run.result.calibration;
   ordered_json json = {{"status", ToString(calibration.status)},
-                       {"message", calibration.message},
+                       {"message", WhyThereIsNoModel(run)},
                        {"assumption", AssumptionText(run.settings, run.session.known)}};
   json["warnings"] = Warnings(run, found);
   AddFit(run, json);

@@ -96,7 +96,7 @@ json ReportData(const CalibrationRun& run, const FoundParameters& found,
                {"images", images},
                {"correlations", CorrelationsJson(run.result.calibration)},
                {"priors", PriorsJson(PriorPulls(run, found))},
-               {"contradicting_pull_sigma", kContradictingPull},
+               {"contradicting_pull_sigma", kContradicting_sigma},
                {"checks", ChecksJson(run)},
                {"options", OptionsJson(run)}};
   data["calibration"] = calibration;

@@ -5,12 +5,6 @@
 #include <algorithm>
 
 namespace legible {
-namespace {
-
-bool IsUsed(const LegEdge& edge) { return edge.left_out.empty(); }
-
-}  // namespace
-
 std::string SessionPath(const CalibrationRun& run) {
   return std::filesystem::absolute(run.settings.session).lexically_normal().string();
 }
@@ -18,13 +12,6 @@ std::string SessionPath(const CalibrationRun& run) {
 int CountUsedImages(const SessionCalibration& result) {
   return static_cast<int>(std::count_if(result.images.begin(), result.images.end(),
                                         [](const ImageOutcome& image) { return image.left_out.empty(); }));
-}
-
-int CountUsedEdges(const SessionCalibration& result) {
-  int count = 0;
-  for (const ImageOutcome& image : result.images)
-    count += static_cast<int>(std::count_if(image.edges.edges.begin(), image.edges.edges.end(), IsUsed));
-  return count;
 }
 
 std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionCalibration& result) {

@@ -23,7 +23,6 @@ struct CalibrationRun {
 std::string SessionPath(const CalibrationRun& run);
 
 int CountUsedImages(const SessionCalibration& result);
-int CountUsedEdges(const SessionCalibration& result);
 
 // The residuals of each image's edges, by image of the result; an image that took no part has none.
 std::vector<std::vector<const EdgeResidualSet*>> ResidualsByImage(const SessionCalibration& result);

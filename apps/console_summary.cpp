@@ -7,14 +7,11 @@
 #include <cmath>
 #include <functional>
 
+#include "apps/judgement.h"
+
 namespace legible {
 namespace {
 
-constexpr int kTooFewImages = 4;  // whatever is open, more of them come first
-constexpr char kLegsNotFound[] =
-    "the legs were not found where the session puts them. Usual causes: camera_from_base or camera_matrix in "
-    "camera.yaml far off (tags on the base help), legs in another order in joints.csv than in robot.yaml, "
-    "lengths not in metres, little contrast between legs and background.";
 constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json has all
 
 std::string Capitalised(std::string text) {
@@ -32,7 +29,7 @@ std::string HeadLine(const CalibrationRun& run) {
     if (letter == '_') letter = ' ';
   return fmt::format("{}: {} of {} and {} used. {}\n", status, CountUsedImages(run.result),
                      Plural(static_cast<int>(run.result.images.size()), "image"),
-                     Plural(CountUsedEdges(run.result), "leg edge"),
+                     Plural(CountEdges(run.result).used, "leg edge"),
                      AssumptionText(run.settings, run.session.known));
 }
 
@@ -116,16 +113,6 @@ std::string LegTable(const CalibrationRun& run, const FoundParameters& found) {
   return text;
 }
 
-// The first look failed, or most images show no leg near its prediction, although there was enough to look
-// at.
-bool WereLegsNotFound(const CalibrationRun& run) {
-  const auto& images = run.result.images;
-  const auto looked_at = std::count_if(images.begin(), images.end(),
-                                       [](const ImageOutcome& image) { return !image.edges.edges.empty(); });
-  return looked_at >= kTooFewImages &&
-         (!run.result.first_look.empty() || 2 * CountUsedImages(run.result) < looked_at);
-}
-
 std::string OpenSentences(const std::vector<WeakDirection>& open) {
   std::string text;
   for (size_t i = 0; i < std::min(open.size(), kSentencesPrinted); ++i)
@@ -148,20 +135,12 @@ std::string FilesText(const CalibrationRun& run) {
                      has_model ? "model.yaml, " : "", run.settings.out.string(), run.result.times.total_s);
 }
 
-std::string WhyThereIsNoModel(const CalibrationRun& run) {
-  const LegCalibration& calibration = run.result.calibration;
-  if (calibration.status == CalibrationStatus::kConverged) return "";
-  const int used = CountUsedImages(run.result);
-  if (WereLegsNotFound(run)) return fmt::format("legible: no model: {}\n", kLegsNotFound);
-  if (used < kTooFewImages)
-    return fmt::format(
-        "legible: no model: {} could be used, too few to determine the parameters; give some forty in "
-        "clearly different poses\n",
-        used == 0 ? "no image" : "only " + Plural(used, "image"));
-  if (calibration.status == CalibrationStatus::kUnobservable)
-    return "legible: no model: the session leaves parameters open.\n" +
-           OpenSentences(calibration.observability.unobservable);
-  return fmt::format("legible: no model: {}.\n", calibration.message);
+std::string FailureText(const CalibrationRun& run) {
+  const std::string why = WhyThereIsNoModel(run);
+  if (why.empty()) return "";
+  const bool is_open = why == kParametersOpen;
+  return fmt::format("legible: no model: {}.\n", why) +
+         (is_open ? OpenSentences(run.result.calibration.observability.unobservable) : "");
 }
 
 std::string WarningsText(const std::vector<std::string>& warnings) {

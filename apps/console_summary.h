@@ -15,8 +15,8 @@ std::string SummaryText(const CalibrationRun& run, const FoundParameters& found)
 // Where the files are.
 std::string FilesText(const CalibrationRun& run);
 
-// Why there is no model, in sentences; empty where there is one.
-std::string WhyThereIsNoModel(const CalibrationRun& run);
+// Why there is no model, and what is open, a line each; empty where there is one.
+std::string FailureText(const CalibrationRun& run);
 
 // A line for each warning.
 std::string WarningsText(const std::vector<std::string>& warnings);

@@ -14,4 +14,9 @@ namespace legible {
 // show these.
 std::vector<std::string> Warnings(const CalibrationRun& run, const FoundParameters& found);
 
+// Why there is no model, in a sentence without full stop; empty where there is one. kParametersOpen where the
+// observability's sentences say more.
+std::string WhyThereIsNoModel(const CalibrationRun& run);
+inline constexpr char kParametersOpen[] = "the session leaves parameters open";
+
 }  // namespace legible

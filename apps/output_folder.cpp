@@ -25,14 +25,21 @@ std::vector<fs::path> MissingFolders(fs::path folder) {
   return missing;
 }
 
+// "legible-HOST-": folders of other hosts' processes, and anything else, are not ours to judge.
+std::string StagingStart() {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  return fmt::format(".legible-{}-", host);
+}
+
 // The process whose staging folder has this name; nothing for other names.
 std::optional<pid_t> StagedBy(const std::string& name) {
+  const std::string start = StagingStart();
+  if (!name.starts_with(start) || !name.ends_with(kStagingEnd)) return std::nullopt;
   pid_t process = 0;
-  const char* const end = name.data() + name.size();
-  if (!name.starts_with('.') || !name.ends_with(kStagingEnd)) return std::nullopt;
-  const auto [stop, error] = std::from_chars(name.data() + 1, end, process);
-  return error == std::errc() && stop + std::strlen(kStagingEnd) == end ? std::optional(process)
-                                                                        : std::nullopt;
+  const char* const end = name.data() + name.size() - std::strlen(kStagingEnd);
+  const auto [stop, error] = std::from_chars(name.data() + start.size(), end, process);
+  return error == std::errc() && stop == end && process > 0 ? std::optional(process) : std::nullopt;
 }
 
 // Staging folders of processes that were killed while they wrote.
@@ -40,7 +47,8 @@ void RemoveAbandoned(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const auto process = StagedBy(entry.path().filename());
-    if (process && kill(*process, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), ignored);
+    const bool is_ours = process && entry.symlink_status().type() == fs::file_type::directory;
+    if (is_ours && kill(*process, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), ignored);
   }
 }
 
@@ -49,7 +57,8 @@ void RemoveAbandoned(const fs::path& folder) {
 class Staging {
  public:
   explicit Staging(const fs::path& folder)
-      : made_(MissingFolders(folder)), path_(folder / fmt::format(".{}{}", getpid(), kStagingEnd)) {
+      : made_(MissingFolders(folder)),
+        path_(folder / fmt::format("{}{}{}", StagingStart(), getpid(), kStagingEnd)) {
     try {
       fs::create_directories(path_);
     } catch (const fs::filesystem_error&) {
@@ -87,10 +96,7 @@ void OrInputError(const fs::path& folder, Action action) {
 }  // namespace
 
 void DemandWritable(const fs::path& folder, const std::vector<std::string>& names) {
-  OrInputError(folder, [&] {
-    RemoveAbandoned(folder);
-    const Staging trial(folder);
-  });
+  OrInputError(folder, [&] { const Staging trial(folder); });
   for (const std::string& name : names)
     if (fs::is_directory(folder / name))
       throw InputError(folder / name, 0, "is a folder where a file is to be written",
@@ -100,6 +106,7 @@ void DemandWritable(const fs::path& folder, const std::vector<std::string>& name
 void WriteTogether(const fs::path& folder, const std::vector<std::string>& names,
                    const std::function<void(const fs::path&)>& write) {
   OrInputError(folder, [&] {
+    RemoveAbandoned(folder);
     const Staging staging(folder);
     write(staging.path());
     for (const std::string& name : names) {

@@ -9,9 +9,6 @@
 
 namespace legible {
 
-// Pulls beyond this contradict what was said.
-inline constexpr double kContradictingPull = 4;
-
 struct PriorPull {
   std::string name;  // "legs[1].radius_m", "camera.fx_px"
   double value, sigma;

@@ -12,7 +12,7 @@ namespace {
 constexpr char kDescription[] =
     "Calibrates parallel robots by the edges of their legs, seen by one fixed camera.";
 constexpr char kFooter[] =
-    R"(Exit codes: 0 success; 1 the computation ended without a usable result; 2 bad usage or bad input.
+    R"(Exit codes: 0 success; 1 no usable result, or nowhere to print it; 2 bad usage or bad input.
 `legible COMMAND --help` explains a command.)";
 
 // The command line as far as it could be understood: "legible calibrate".
@@ -68,7 +68,7 @@ int RunProgram(const std::vector<std::string>& arguments, const Console& console
     const int code = ParseAndRun(app, arguments, console);
     if (console.out.flush()) return code;
     console.err << "legible: standard output cannot be written\n";
-    return kExitNoResult;
+    return std::max(code, kExitNoResult);
   } catch (const InputError& error) {
     console.err << "legible: " << error.what() << "\n";
     return kExitBadInput;

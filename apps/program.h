@@ -10,7 +10,7 @@ namespace legible {
 
 // Exit codes of every command.
 inline constexpr int kExitSuccess = 0;
-inline constexpr int kExitNoResult = 1;  // the computation ended without a usable result
+inline constexpr int kExitNoResult = 1;  // no usable result, or standard output cannot be written
 inline constexpr int kExitBadInput = 2;  // bad usage or bad input; nothing was written
 
 // "0.1.0"

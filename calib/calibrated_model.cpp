@@ -65,6 +65,17 @@ ModelCovariance CovarianceOfModel(const LegCalibration& calibration) {
   return model;
 }
 
+Eigen::VectorXd ValuesOfModel(const LegCalibration& calibration) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(kModelParameters);
+  values.head<kCameraParameterCount>() = ParametersOf(calibration.camera);
+  for (int i = 0; i < kLegCount; ++i) {
+    const Leg& leg = calibration.robot.legs[static_cast<size_t>(i)];
+    values.segment<kModelLegParameters>(kCameraParameterCount + i * kModelLegParameters) << leg.base_joint_m,
+        leg.platform_joint_m, leg.radius_m, leg.joint_offset_m;
+  }
+  return values;
+}
+
 CalibratedModel ToModel(const LegCalibration& calibration) {
   const ModelCovariance all = CovarianceOfModel(calibration);
   CalibratedModel model;

@@ -20,6 +20,9 @@ struct ModelCovariance {
 };
 ModelCovariance CovarianceOfModel(const LegCalibration& calibration);
 
+// The values of those parameters; of the base's placement, a displacement, 0.
+Eigen::VectorXd ValuesOfModel(const LegCalibration& calibration);
+
 // With the covariance of what was estimated; what was held or stays open has no rows. Provenance is the
 // caller's to add.
 CalibratedModel ToModel(const LegCalibration& calibration);

@@ -192,7 +192,7 @@ bool Calibrator::Reweight(int round) {
     // whose sigma comes from their own squares, what placing their groups takes.
     const double fitted = UnknownCount() - readings_.Weight() - PriorRows() -
                           6.0 * static_cast<double>(tags_.SeenGroups()) + OtherSquares();
-    noise_ = EstimateNoise(edges_, std::max(fitted, 0.0));
+    noise_ = EstimateNoise(edges_, std::clamp(fitted, 0.0, static_cast<double>(UnknownCount())));
   }
   UpdateWeights(edges_, noise_);
   const double tag_sigma_before_px = tags_.sigma_px();
@@ -269,6 +269,7 @@ LegCalibration Calibrator::Result() const {
   result.edges = edges_;
   result.edge_sigma_px = EdgeSigma();
   result.reading_rms = readings_.Rms();
+  result.reading_scatter = readings_.Scatter();
   result.outlying_readings = readings_.Outlying();
   result.samples = samples_;
   result.iterations = iterations_;

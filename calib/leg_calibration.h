@@ -103,9 +103,10 @@ struct LegCalibration {
   Observability observability;                        // covariance of the shared parameters, A in camera
   EdgeNoise noise;  // what the residuals say of the samples' own sigmas, over all edges
   NoiseByEdge noise_by_edge;
-  double edge_sigma_px = 0;  // root mean square over the samples of what `noise` says of one sample
-  double rms_px = 0;         // weighted, of all samples' distances
-  double reading_rms = 0;    // of the reading residuals in their sigmas, weighted; 0 without readings
+  double edge_sigma_px = 0;    // root mean square over the samples of what `noise` says of one sample
+  double rms_px = 0;           // weighted, of all samples' distances
+  double reading_rms = 0;      // of the reading residuals in their sigmas, weighted; 0 without readings
+  double reading_scatter = 0;  // about what each image alone predicts: see ReadingRounds::Scatter
   std::vector<OutlyingReading> outlying_readings;
   std::vector<EdgeResidualSet> edges;  // residual and weight of every sample
   std::vector<TagGroupFit> tags;       // of each group of the input; only where converged

@@ -174,6 +174,9 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
                               Eigen::MatrixXd::Identity(inside.size(), inside.size());
     space = space * q.rightCols(inside.size() - 1);
   }
+  if (space.cols() > 0)  // what was named is taken out of it: its own axes again
+    space *=
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(space.transpose() * relative * space).eigenvectors();
   for (Eigen::Index i = 0; i < space.cols(); ++i)
     add(DescribeUnnamed(space.col(i), SigmaAlong(space.col(i), relative, zero)), space.col(i));
   return result;

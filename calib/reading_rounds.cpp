@@ -47,6 +47,15 @@ double ReadingRounds::Rms() const {
   return weight > 0 ? std::sqrt(Squares() / weight) : 0;
 }
 
+double ReadingRounds::Scatter() const {
+  if (rows_.empty()) return 0;
+  std::vector<double> squares;
+  squares.reserve(rows_.size());
+  for (const Row& row : rows_) squares.push_back(row.square / static_cast<double>(row.readings.size()));
+  constexpr double kMedianOfSix = 5.348 / 6;  // of chi^2 with as many freedoms, over them
+  return std::sqrt(MedianOf(std::move(squares)) / kMedianOfSix);
+}
+
 std::vector<OutlyingReading> ReadingRounds::Outlying() const {
   constexpr double kHardlyCounts = 0.5;
   std::vector<OutlyingReading> outlying;

@@ -25,6 +25,10 @@ class ReadingRounds {
   double Weight() const;   // sum of all weights
   double Squares() const;  // weighted sum of squares, in the readings' own sigmas
   double Rms() const;      // the root of their ratio; 0 without readings
+  // By what factor the readings scatter about what each image alone predicts, beyond what their sigmas and
+  // the prediction's allow: the median over the images. About 1 where the sigmas are right; 0 without
+  // readings.
+  double Scatter() const;
   std::vector<OutlyingReading> Outlying() const;
 
   // Finds the residuals where the problem stands, with the edges as they count there.

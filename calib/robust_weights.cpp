@@ -83,11 +83,12 @@ struct VarianceFactor {
   }
   // Square root of the factor; `share`: of the values' squares that the fitted parameters left in the
   // residuals. Where that is little, it is not an even share (a leg whose direction is free takes up what
-  // its two edges have in common), and the factor is not below what the edges say of themselves.
+  // its two edges have in common), and the factor is less and less believed to be below what the edges say of
+  // themselves.
   double Sigma(double share) const {
-    constexpr double kEnoughLeft = 2.0 / 3;
-    constexpr double kLeastFactor = 0.04;
-    const double least = share < kEnoughLeft ? 1 : kLeastFactor;
+    constexpr double kEnoughLeft = 0.75, kTooLittleLeft = 0.5, kLeastFactor = 0.04;
+    const double least =
+        std::clamp((kEnoughLeft - share) / (kEnoughLeft - kTooLittleLeft), kLeastFactor, 1.0);
     const double values = excess / share / kCommonVarianceOfStandardNormal;
     return count > 0 ? std::sqrt(std::max(values / count - noise / count, least)) : 1;
   }

@@ -26,8 +26,8 @@ constexpr double kUnknownLensBend_px = 12;
 constexpr double kSearchAfterScouts_px = 5;
 constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
-constexpr double kGrossMisfit = 10;  // no cylinder's shading explains as much
-constexpr double kMisfitOfFew = 2;   // nor this, where most edges were not even found near the model
+constexpr double kGrossMisfit = 8;  // drawn joints held 2 mm off leave 11, radii held 0.3 mm off 9
+constexpr double kMisfitOfFew = 2;  // nor this, where most edges were not even found near the model
 // How far off the legs may be where tags gave the camera's pose, and where a tape measure did, to 3 cm and 3
 // deg.
 constexpr double kTagPoseRange_px = 30;
@@ -138,6 +138,9 @@ class SessionCalibrator {
   }
 
   bool IsReadable(size_t i) const { return !images_[i].pixels.empty(); }
+  bool CanBeMeasured(size_t i) const {
+    return IsReadable(i) && prediction_.base_from_platform[i].has_value();
+  }
   bool IsMeasured(size_t i) const { return !result_.images[i].edges.edges.empty(); }
 
   void FindTags() {
@@ -209,9 +212,11 @@ class SessionCalibrator {
   // search.
   void RefineFirstPose() {
     PredictPoses();
-    std::vector<size_t> scouts;
-    const size_t scout_count = std::min(count_, static_cast<size_t>(options_.scouts));
-    for (size_t i = 0; i < scout_count; ++i) scouts.push_back(i * count_ / scout_count);
+    std::vector<size_t> seen, scouts;
+    for (size_t i = 0; i < count_; ++i)
+      if (CanBeMeasured(i)) seen.push_back(i);
+    const size_t scout_count = std::min(seen.size(), static_cast<size_t>(options_.scouts));
+    for (size_t i = 0; i < scout_count; ++i) scouts.push_back(seen[i * seen.size() / scout_count]);
     LegLockOptions lock;
     lock.range_px = result_.first_pose_from == "camera.yaml" ? kTapePoseRange_px : kTagPoseRange_px;
     LegEdgeOptions rough_edges = options_.edges;
@@ -276,7 +281,7 @@ class SessionCalibrator {
                const LegEdgeOptions& edge_options) {
     ForEachImage(stage, which, [&](size_t i) {
       result_.images[i].edges = LegEdges();
-      if (!IsReadable(i) || !prediction_.base_from_platform[i]) return;
+      if (!CanBeMeasured(i)) return;
       const LegsInCamera legs =
           PlaceLegs(prediction_.robot, prediction_.camera_from_base, *prediction_.base_from_platform[i]);
       result_.images[i].edges = MeasureLegEdges(images_[i], legs, prediction_.camera, edge_options);
@@ -325,21 +330,19 @@ class SessionCalibrator {
 
   void RefuseContradicted() {
     LegCalibration& calibration = result_.calibration;
-    if (!Usable()) return;
-    size_t edges = 0, used = 0;
-    for (const ImageOutcome& image : result_.images) {
-      edges += image.edges.edges.size();
-      used += static_cast<size_t>(
-          std::count_if(image.edges.edges.begin(), image.edges.edges.end(), IsMeasuredEdge));
-    }
+    if (!Usable() && calibration.status != CalibrationStatus::kUnobservable) return;
+    const EdgeCounts edges = CountEdges(result_);
     const double misfit = calibration.Misfit();
-    if (misfit < kMisfitOfFew || (misfit < kGrossMisfit && 2 * used >= edges)) return;
+    if (misfit < kMisfitOfFew || (misfit < kGrossMisfit && 2 * edges.used >= edges.in_sight)) return;
+    calibration.tags.clear();
     calibration.status = CalibrationStatus::kNotConverged;
     calibration.message = fmt::format(
-        "{} of {} edges were found near the best model, and these lie {:.1f} times as far from it ({:.2f} px "
-        "rms) as their own scatter allows: what is held or known beforehand is wrong, the lens model too "
-        "poor, or this is not the robot of the drawing",
-        used, edges, misfit, calibration.rms_px);
+        "{} of {} edges in sight were found near the best model, and these lie {:.1f} times as far from it "
+        "({:.2f} px "
+        "rms) as their own scatter allows: what is held or known beforehand is wrong, legs stand in another "
+        "order in joints.csv than in robot.yaml, the lens model is too poor, the camera moved between "
+        "images, or this is not the robot of the drawing",
+        edges.used, edges.in_sight, misfit, calibration.rms_px);
   }
 
   void CheckResult() {
@@ -347,14 +350,17 @@ class SessionCalibrator {
     const std::vector<size_t>& used = result_.estimated;
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
     if (options_.folds > 1) {
-      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
-                                             FoldsOf(used.size(), options_.folds, options_.seed));
+      const std::vector<int> folds = FoldsOf(used.size(), options_.folds, options_.seed);
+      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation, folds);
+      result_.held_out_folds = std::min(options_.folds, static_cast<int>(used.size()));
       result_.held_out_rms_px = held_out.rms_px;
       result_.held_out_folds_failed = held_out.folds_failed;
       for (size_t k = 0; k < used.size(); ++k)
         result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
     }
     if (session_.tags) CheckTags(used);
+    result_.held_differences =
+        DifferencesOfHeld(Input(used), result_.calibration, options_.estimation, kContradicting_sigma);
   }
 
   void CountResiduals(const EdgeResidualSet& edge, const std::vector<size_t>& used) {
@@ -377,7 +383,8 @@ class SessionCalibrator {
     for (const LegEdge& edge : image.edges.edges) ++counts[edge.left_out];
     const auto commonest = std::max_element(counts.begin(), counts.end(),
                                             [](const auto& a, const auto& b) { return a.second < b.second; });
-    image.left_out = "none of its edges could be measured, most of them: " + commonest->first;
+    image.left_out = "none of its edges could be measured (its joint readings may be wrong), most of them: " +
+                     commonest->first;
   }
 
   void CheckTags(const std::vector<size_t>& used) {
@@ -427,6 +434,16 @@ void SessionCalibrationOptions::Check() const {
   edges.Check();
   if (scouts < 1 || threads < 1 || folds < 0)
     throw std::invalid_argument("scouts, threads and folds must be positive");
+}
+
+EdgeCounts CountEdges(const SessionCalibration& result) {
+  EdgeCounts counts;
+  for (const ImageOutcome& image : result.images)
+    for (const LegEdge& edge : image.edges.edges) {
+      counts.in_sight += edge.in_sight ? 1 : 0;
+      counts.used += IsMeasuredEdge(edge) ? 1 : 0;
+    }
+  return counts;
 }
 
 SessionCalibration CalibrateSession(const Session& session, const SessionCalibrationOptions& options) {

@@ -7,12 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "calib/held_values.h"
 #include "calib/leg_calibration.h"
 #include "core/session/session.h"
 #include "core/vision/leg_edges.h"
 #include "core/vision/tags.h"
 
 namespace legible {
+
+// What was said or held beforehand is contradicted by the images where it is more sigmas off than this.
+inline constexpr double kContradicting_sigma = 4;
 
 struct SessionCalibrationOptions {
   LegCalibrationOptions estimation;
@@ -62,13 +66,21 @@ struct SessionCalibration {
   // Edges of images held out in turn, predicted from their joint readings alone (or, without readings, after
   // their pose was fitted): root mean square over all of them.
   std::optional<double> held_out_rms_px;
-  int held_out_folds_failed = 0;  // turns in which the other images alone did not lead to a model
+  int held_out_folds = 0;                        // turns, of which some image was held out in each
+  int held_out_folds_failed = 0;                 // in which the other images alone did not lead to a model
+  std::vector<HeldDifference> held_differences;  // of more than kContradicting_sigma
   std::vector<TagCheck> tag_checks;
   std::string first_pose_from;           // "tags base_board" or "camera.yaml"
   std::vector<std::string> misfit_tags;  // groups on the base that were not used to place the camera, and why
   std::string first_look;                // why the camera's first pose could not be refined; empty: it was
   StageTimes times;
 };
+
+// Over all images: edges of which enough is in sight as predicted, and those that were measured.
+struct EdgeCounts {
+  int in_sight = 0, used = 0;
+};
+EdgeCounts CountEdges(const SessionCalibration& result);
 
 // Runs the whole chain. Throws std::invalid_argument for a session that does not say where the camera is (no
 // camera_from_base and no tags on the base that are seen); an image that cannot be read, or whose joint

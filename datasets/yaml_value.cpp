@@ -176,8 +176,14 @@ Eigen::Quaterniond YamlValue::Rotation() const {
 }
 
 Rigid3 YamlValue::Rigid() const {
+  constexpr double kFarthest_m = 100;  // beyond any robot and camera, and short of one in millimetres
   AllowKeys({"rotation_xyzw", "translation_m"});
-  return {Get("rotation_xyzw").Rotation(), Get("translation_m").Vector3()};
+  const YamlValue translation = Get("translation_m");
+  const Rigid3 transform{Get("rotation_xyzw").Rotation(), translation.Vector3()};
+  if (transform.translation.norm() > kFarthest_m)
+    translation.Fail(fmt::format("is {:.4g} m long", transform.translation.norm()),
+                     "give lengths in metres, not in millimetres");
+  return transform;
 }
 
 std::string NumberText(double value) {

@@ -80,7 +80,8 @@ void FlattenBy(LevelShape shape, Work& work) {
   work.profile = FlatProfile(work.whole, work.shape, kGrid, kFineBins_px);
 }
 
-// Both keep the fit where there is none at the new blur.
+// Both keep the fit where there is none at the new blur, for blurs differ little; its misfit enlarges its
+// sigma.
 void FitAt(double blur_px, Work& work) {
   work.fit_options.blur_px = blur_px;
   if (auto fit = FitSimplestModel(work.profile, 0, work.fit_options)) work.fit = std::move(fit);
@@ -243,6 +244,7 @@ class Measurement {
       work.result->left_out = "not in front of the camera";
     else if (VisibleLength(work.predicted) < options_.least_length_px)
       work.result->left_out = MainObstacle(work.predicted);
+    work.result->in_sight = !work.Dropped();
   }
 
   double CommonGreyNoise() const {
@@ -299,7 +301,7 @@ class Measurement {
   template <typename F>
   void ForEachFit(F refit) {
     for (Work& work : works_)
-      if (!work.Dropped() && work.fit) refit(work);
+      if (!work.Dropped()) refit(work);
   }
 
   void Recentre(double blur) {
@@ -354,10 +356,6 @@ class Measurement {
   }
 
   void Finish(Work& work) const {
-    if (!work.fit) {
-      work.result->left_out = kNoEdge;
-      return;
-    }
     Sample(work);
     FitLine(camera_, work);
     Judge(options_, work);

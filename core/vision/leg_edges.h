@@ -35,6 +35,7 @@ struct LegEdge {
   int leg = 0;           // 0-based
   int edge = 0;          // 0 or 1
   std::string left_out;  // the reason; empty: measured
+  bool in_sight = true;  // enough of it, as predicted: other legs, plates and the image's border leave it
   EdgeObservation observation;
   // Outline normal of the line through the samples, in the camera frame, unit, away from the leg.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

@@ -48,7 +48,8 @@ class ProfileTable {
   float At(const Profile& profile, double shift_px) const { return Look(profile.leg_likeness, shift_px); }
   // No smaller than At() anywhere in the cell of shifts about one that is `shift_px` across the profile.
   float MostInCell(const Profile& profile, double shift_px) const {
-    return Look(profile.most_in_cell, shift_px);
+    const double rim = reach_;  // beyond it a cell may reach back in
+    return Look(profile.most_in_cell, std::clamp(shift_px, -rim, rim));
   }
 
  private:
@@ -132,7 +133,7 @@ struct CommonBest {
 template <typename F>
 void ForEachCell(const Eigen::Vector2d& centre, const LegLockOptions& options, F visit) {
   const double side_px = (2 * kCell + 1) * kCommonStep_px;
-  const int cells = static_cast<int>(std::ceil(options.range_px / side_px));
+  const int cells = static_cast<int>(std::ceil((options.range_px - kCell * kCommonStep_px) / side_px));
   for (int roll = -kRollSteps; roll <= kRollSteps; ++roll)
     for (int growth = -kScaleSteps; growth <= kScaleSteps; ++growth)
       for (int dx = -cells; dx <= cells; ++dx)
@@ -191,7 +192,8 @@ std::optional<LegLock> SearchLeg(const ProfileTable& table, const LegProfiles& p
 }  // namespace
 
 void LegLockOptions::Check() const {
-  if (!(blur_px > 0) || !(range_px > 0) || !(leg_range_px > 0) || roll_range_rad < 0 || scale_range < 0)
+  if (!(blur_px > 0) || !(range_px > 0) || !(leg_range_px > 0) || !(roll_range_rad >= 0) ||
+      !(scale_range >= 0))
     throw std::invalid_argument("LegLockOptions: blur and ranges must be positive");
 }
 

@@ -28,7 +28,7 @@ struct LegLock {
 };
 
 // First the shift, roll and scale common to all legs that puts most leg-like profiles (two opposite edges a
-// leg's width apart) under the predicted axes, by exhaustive search; then each leg by itself. A leg that
+// leg's width apart) under the predicted axes, by branch and bound; then each leg by itself. A leg that
 // shows no two edges near its place gets none.
 std::array<std::optional<LegLock>, kLegCount> LockOnLegs(const GrayImage& image,
                                                          const PredictedEdges& predicted,

@@ -1,4 +1,6 @@
 // `legible calibrate` on the shipped session and on what is left of it: images in, files out.
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -241,10 +243,36 @@ TEST_F(Calibrate, RefusesAModelThatTheEdgesContradict) {
   const ProgramRun run = RunOnIt({"--hold", "base-joints", "--folds", "0", "--no-pictures"});
   EXPECT_EQ(run.exit_code, kExitNoResult);
   EXPECT_THAT(run.err,
-              testing::MatchesRegex("legible: no model: [0-9]* of 192 edges were found near the best "
-                                    "model, and these lie [0-9.]* times as far [^\n]*\n"));
+              testing::MatchesRegex("legible: no model: [0-9]* of 192 edges in sight were found near the "
+                                    "best model, and these lie [0-9.]* times as far [^\n]*\n"));
   EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
   EXPECT_EQ(CountNumbers(json::parse(Bytes(out() / "calibration.json")).at("legs")).known, 0);
+}
+
+// The middle of the image is some 15 px from this camera's principal point.
+TEST_F(Calibrate, WarnsOfAHeldValueThatTheImagesContradict) {
+  const ProgramRun run = RunOnIt({"--hold", "principal-point", "--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  EXPECT_THAT(run.err,
+              testing::MatchesRegex("legible: warning: the images contradict what is held: camera.c[xy]_px "
+                                    "by [0-9.]* σ, [^\n]*\n"));
+}
+
+// Legs exchanged in the table of readings: no parameter is open, and no reading is a thousand kilometres off.
+TEST_F(Calibrate, SaysThatTheEdgesContradictLegsInAnotherOrder) {
+  Edit("joints.csv", "image,q1_m,q2_m,q3_m,q4_m,q5_m,q6_m", "image,q1_m,q2_m,q4_m,q3_m,q5_m,q6_m");
+  const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_THAT(run.err, HasSubstr("legs"));
+  EXPECT_THAT(run.err, HasSubstr("in another order in joints.csv than in robot.yaml"));
+  EXPECT_THAT(run.err, Not(HasSubstr("did not count")));
+}
+
+TEST_F(Calibrate, LooksFirstAtImagesThatCanBeRead) {
+  for (int i = 0; i < 16; i += 2) Truncate(fmt::format("{:03}.png", i));
+  const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
+  EXPECT_EQ(run.exit_code, kExitSuccess) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("8 of 16 images left out: not an image, or damaged (000.png, "));
 }
 
 // Radii of the drawing that are 0.3 mm off, given as if they were known to 0.02 mm.

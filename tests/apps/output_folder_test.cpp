@@ -57,16 +57,23 @@ TEST_F(OutputFolder, TrialOfWritingLeavesNothing) {
   EXPECT_THAT(folder_.Names(), IsEmpty());
 }
 
-TEST_F(OutputFolder, LosesWhatAKilledRunLeftAndKeepsWhatALivingOneWrites) {
+TEST_F(OutputFolder, LosesWhatAKilledRunLeftAndNothingElse) {
   const pid_t child = fork();
   if (child == 0) _exit(0);
   waitpid(child, nullptr, 0);
-  const std::string living = fmt::format(".{}.part", getppid());
-  folder_.Write(fmt::format(".{}.part/model.yaml", child), "half");
-  folder_.Write(living + "/model.yaml", "half");
-  folder_.Write(".x.part/kept", "");
+  std::string own;  // the name that a staging folder of this process has
+  WriteTogether(folder_.path(), {"x"}, [&](const fs::path& staging) { own = staging.filename(); });
+  const auto of_process = [&](auto process) {
+    return Replaced(own, fmt::format("-{}.", getpid()), fmt::format("-{}.", process));
+  };
+  const std::vector<std::string> kept = {of_process(getppid()), of_process(-99999), "." + own,
+                                         fmt::format(".{}.part", child)};
+  for (const std::string& name : kept) folder_.Write(name + "/model.yaml", "half");
+  folder_.Write(of_process(child) + "/model.yaml", "half");
   DemandWritable(folder_.path(), {"x"});
-  EXPECT_THAT(folder_.Names(), UnorderedElementsAre(living, ".x.part"));
+  EXPECT_EQ(folder_.Names().size(), kept.size() + 1);
+  WriteTogether(folder_.path(), {"x"}, [](const fs::path&) {});
+  EXPECT_THAT(folder_.Names(), testing::UnorderedElementsAreArray(kept));
 }
 
 TEST_F(OutputFolder, CannotTakeAFileWhereAFolderHasItsName) {
