@@ -158,7 +158,7 @@ TEST_F(Calibrate, SaysInOneLineThatOneImageIsTooFew) {
   EXPECT_EQ(run.exit_code, kExitNoResult);
   EXPECT_EQ(run.err,
             "legible: no model: only 1 image could be used, too few to determine the parameters; give some "
-            "forty in clearly different poses\n");
+            "forty in clearly different poses.\n");
   EXPECT_THAT(NamesIn(out()), UnorderedElementsAre("calibration.json", "report.html"));
   EXPECT_EQ(CountNumbers(json::parse(Bytes(out() / "calibration.json")).at("camera_from_base")).known, 0);
 }
