@@ -208,11 +208,11 @@ std::vector<std::string> Warnings(const CalibrationRun& run, const FoundParamete
   if (run.result.calibration.status != CalibrationStatus::kConverged) return sentences;
   AddReadings(run, sentences);
   AddExtent(run, sentences);
+  AddContradictions(run, found, sentences);
   AddMisfit(run, sentences);
   AddHeldOut(run, sentences);
   AddTags(run, sentences);
   AddPoorlyKnown(run, sentences);
-  AddContradictions(run, found, sentences);
   return sentences;
 }
 
