@@ -17,9 +17,8 @@ constexpr int kFewImages = 10;         // below, a pose or two decide; forty are
 constexpr double kHeldOutRatio = 1.5;  // of the error in images held out to that of the fit
 constexpr double kMisfit = 1.4;        // where what is held is right, edges of all kinds stay below 1
 constexpr double kPoorlyKnown = 0.05;  // of its size
-constexpr double kReadingsWorse =
-    1.2;  // scatter about what the images predict; 0.8 to 0.95 where sigmas are right
-constexpr double kReadingsBetter = 0.4;
+// Their scatter about what the images predict is 0.8 to 0.95 where sigmas are right.
+constexpr double kReadingsWorse = 1.2, kReadingsBetter = 0.4;
 constexpr double kTagMisfit_px = 1;   // detectors are ten times better
 constexpr double kOutlyingImage = 5;  // times the median of all
 constexpr size_t kNamesShown = 6;

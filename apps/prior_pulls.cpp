@@ -14,20 +14,19 @@ constexpr double kLeastVarianceShare = 1e-6;  // of what was given, that the ima
 
 class PullList {
  public:
+  // `left`: the share of what was said's variance that is left where a frame is fitted to it.
   void Add(const std::string& name, double value, const std::optional<double>& sigma, double found,
-           double found_sigma) {
+           double found_sigma, double left = 1) {
     if (!sigma || !(found_sigma > 0)) return;  // nothing said; held, or not known
-    const double variance =
-        std::max(*sigma * *sigma - found_sigma * found_sigma, kLeastVarianceShare * *sigma * *sigma);
+    const double said = left * *sigma * *sigma;
+    const double variance = std::max(said - found_sigma * found_sigma, kLeastVarianceShare * said);
     list_.push_back({name, value, *sigma, found, (found - value) / std::sqrt(variance)});
   }
-  // `left`: the share of the variance that the fit of the joints' frame leaves of each coordinate.
   void AddPoint(const std::string& name, const Eigen::Vector3d& value, const std::optional<double>& sigma,
-                const Eigen::Vector3d& left, const Eigen::Vector3d& found,
-                const Eigen::Vector3d& found_sigma) {
+                const Eigen::Vector3d& found, const Eigen::Vector3d& found_sigma,
+                const Eigen::Vector3d& left) {
     for (int i = 0; i < 3; ++i)
-      Add(name + "." + kAxes[i], value[i], sigma ? std::optional(*sigma * std::sqrt(left[i])) : std::nullopt,
-          found[i], found_sigma[i]);
+      Add(name + "." + kAxes[i], value[i], sigma, found[i], found_sigma[i], left[i]);
   }
   std::vector<PriorPull> Take() { return std::move(list_); }
 
@@ -71,12 +70,11 @@ std::vector<PriorPull> PriorPulls(const CalibrationRun& run, const FoundParamete
     const Leg& drawn = run.session.robot.legs[i];
     const FoundLeg& leg = found.legs[i];
     const std::string name = fmt::format("legs[{}].", i + 1);
-    pulls.AddPoint(name + "base_joint_m", drawn.base_joint_m, known.base_joint_m,
-                   left_of_base.segment<3>(3 * static_cast<Eigen::Index>(i)), leg.base_joint_m,
-                   leg.sigma.base_joint_m);
+    const Eigen::Index first = 3 * static_cast<Eigen::Index>(i);
+    pulls.AddPoint(name + "base_joint_m", drawn.base_joint_m, known.base_joint_m, leg.base_joint_m,
+                   leg.sigma.base_joint_m, left_of_base.segment<3>(first));
     pulls.AddPoint(name + "platform_joint_m", drawn.platform_joint_m, known.platform_joint_m,
-                   left_of_platform.segment<3>(3 * static_cast<Eigen::Index>(i)), leg.platform_joint_m,
-                   leg.sigma.platform_joint_m);
+                   leg.platform_joint_m, leg.sigma.platform_joint_m, left_of_platform.segment<3>(first));
     pulls.Add(name + "radius_m", drawn.radius_m, known.radius_m, leg.radius_m, leg.sigma.radius_m);
     pulls.Add(name + "joint_offset_m", drawn.joint_offset_m, known.joint_offset_m, leg.joint_offset_m,
               leg.sigma.joint_offset_m);

@@ -14,9 +14,8 @@ struct PriorPull {
   double value, sigma;
   double found;
   // (found - value) / sqrt(sigma^2 - sigma of found^2): standard normal where all sigmas are right, for the
-  // difference of an estimate from what went into it has the difference of their variances. A value that is
-  // given too well hides in found - value, and not here. (Of joints, whose frame is fitted to the values, it
-  // is less.)
+  // difference of an estimate from what went into it has the difference of their variances. Of joints, whose
+  // frame is fitted to the values, sigma^2 stands for what that fit leaves of it.
   double pull;
 };
 

@@ -103,8 +103,8 @@ ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
   return at;
 }
 
-// What the image alone, without the readings, say that the readings should be: the pose follows the readings
-// by their present weight, which is taken back first.
+// What the image alone, without the readings, says that they should be: the pose follows them by their
+// present weight, which is taken back first.
 void ReadingRounds::Predict(const Linearised& at, Row& row) const {
   const PoseUnit& unit = problem_.units[row.unit];
   const Reading& first = row.readings.front();

@@ -27,9 +27,8 @@ constexpr double kSearchAfterScouts_px = 5;
 constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
 constexpr double kGrossMisfit = 8;  // drawn joints held 2 mm off leave 11, radii held 0.3 mm off 9
-constexpr double kMisfitOfFew = 2;  // nor this, where most edges were not even found near the model
-// How far off the legs may be where tags gave the camera's pose, and where a tape measure did, to 3 cm and 3
-// deg.
+constexpr double kMisfitOfFew = 2;  // where most edges in sight were not even found near the model
+// How far off the legs may be where tags gave the camera's pose, and where a tape measure did (3 cm, 3 deg).
 constexpr double kTagPoseRange_px = 30;
 constexpr double kTapePoseRange_px = 120;
 
@@ -338,9 +337,10 @@ class SessionCalibrator {
     calibration.status = CalibrationStatus::kNotConverged;
     calibration.message = fmt::format(
         "{} of {} edges in sight were found near the best model, and these lie {:.1f} times as far from it "
-        "({:.2f} px "
-        "rms) as their own scatter allows: what is held or known beforehand is wrong, legs stand in another "
-        "order in joints.csv than in robot.yaml, the lens model is too poor, the camera moved between "
+        "({:.2f} px rms) as their own scatter allows: what is held or known beforehand is wrong, legs stand "
+        "in "
+        "another order in joints.csv than in robot.yaml, the lens model is too poor, the camera moved "
+        "between "
         "images, or this is not the robot of the drawing",
         edges.used, edges.in_sight, misfit, calibration.rms_px);
   }
