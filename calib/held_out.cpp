@@ -149,6 +149,7 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
   if (check.images < 2) return std::nullopt;
 
   constexpr int kRounds = 15;
+  GroupCheck best;
   for (int round = 0; round <= kRounds; ++round) {
     Matrix6d information = Matrix6d::Zero();
     Vector6d moment = Vector6d::Zero();
@@ -174,9 +175,11 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
     // Two coordinates a corner: the rms of a corner's distance is sqrt(2) that of a coordinate.
     check.rms_px = *px.Rms() * std::sqrt(2.0);
     check.rms_m = *metres.Rms() * std::sqrt(2.0);
-    if (round < kRounds) carrier_from_group = Displaced(carrier_from_group, information.ldlt().solve(moment));
+    if (round > 0 && !(check.rms_px < best.rms_px)) break;  // there, or corners that no place suits
+    best = check;
+    carrier_from_group = Displaced(carrier_from_group, information.ldlt().solve(moment));
   }
-  return check;
+  return best;
 }
 
 }  // namespace legible

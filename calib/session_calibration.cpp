@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "calib/held_out.h"
@@ -186,6 +187,7 @@ class SessionCalibrator {
         const auto pose = LocateGroup(prediction_.camera, sighting);
         if (!pose) continue;
         if (pose->rms_px > kLargestTagMisfit * MeanSide_px(sighting)) {
+          misfit_groups_.insert(group.name);
           result_.misfit_tags.push_back(
               fmt::format("the tags {} lie {:.0f} px from where tags.yaml has them to each other: check its "
                           "ids and corners",
@@ -391,7 +393,8 @@ class SessionCalibrator {
     const bool by_readings = options_.estimation.use_joint_readings;
     for (const TagGroup& group : session_.tags->groups) {
       const bool on_platform = group.carrier == TagCarrier::kPlatform;
-      if (on_platform && !options_.estimation.rigid_platform) continue;
+      if (misfit_groups_.contains(group.name) || (on_platform && !options_.estimation.rigid_platform))
+        continue;
       std::vector<GroupSighting> sightings;
       std::vector<Rigid3> camera_from_carrier;
       for (size_t k = 0; k < used.size(); ++k) {
@@ -424,6 +427,7 @@ class SessionCalibrator {
   Prediction prediction_;
   std::vector<GrayImage> images_;
   std::vector<double> squares_, weights_;
+  std::set<std::string> misfit_groups_;
   SessionCalibration result_;
 };
 

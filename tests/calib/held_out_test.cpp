@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "datasets/synthetic_session.h"
+#include "tests/calib/synthetic_tags.h"
 
 namespace legible {
 namespace {
@@ -63,6 +66,33 @@ INSTANTIATE_TEST_SUITE_P(Settings, HeldOutImages,
                          [](const auto& setting) { return setting.param.name; });
 
 // Which images are left out together.
+// Of the base's board as the truth sees it, as drawn or with two tags' corners exchanged.
+std::optional<GroupCheck> CheckOfBoard(bool exchanged) {
+  SyntheticOptions synthetic;
+  synthetic.image_count = 6;
+  const SyntheticSession session = GenerateSession(synthetic);
+  ObservedTagGroup board = DrawTags(session, {.corner_sigma_px = 0.05}).front();
+  if (exchanged) std::swap(board.group.tags.front().corners_m, board.group.tags.back().corners_m);
+  std::vector<GroupSighting> sightings;
+  for (const auto& detections : board.detections) sightings.push_back(Match(board.group, detections));
+  return CheckGroup(board.group, session.true_camera, sightings,
+                    std::vector<Rigid3>(sightings.size(), session.true_camera_from_base));
+}
+
+TEST(CheckGroup, FindsTheNoiseOfTheCornersWhereverTheGroupStands) {
+  const auto check = CheckOfBoard(false);
+  ASSERT_TRUE(check);
+  EXPECT_NEAR(check->rms_px, 0.05 * std::sqrt(2.0), 0.015);
+}
+
+// No place suits them: the best that was found on the way, not wherever the search for it ran to.
+TEST(CheckGroup, StaysWithinReachWhereCornersContradictEachOther) {
+  const auto check = CheckOfBoard(true);
+  ASSERT_TRUE(check);
+  EXPECT_GT(check->rms_px, 1);
+  EXPECT_LT(check->rms_m, 1);
+}
+
 TEST(FoldsOf, AreEveryNthImageOrAsManyDrawnFromTheSeed) {
   EXPECT_EQ(FoldsOf(7, 3, std::nullopt), (std::vector<int>{0, 1, 2, 0, 1, 2, 0}));
   const std::vector<int> drawn = FoldsOf(40, 5, 3);
