@@ -11,7 +11,7 @@ namespace {
 constexpr double kFarthestJoint_m = 30;  // from its frame's origin: beyond any hexapod; a small one's in mm
 
 Eigen::Vector3d JointFromYaml(const YamlValue& section) {
-  const Eigen::Vector3d joint = section.Vector3();
+  Eigen::Vector3d joint = section.Vector3();
   if (joint.norm() > kFarthestJoint_m)
     section.Fail(fmt::format("is {:.4g} m from the origin of its frame", joint.norm()),
                  "give lengths in metres, not in millimetres");

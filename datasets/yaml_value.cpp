@@ -179,7 +179,7 @@ Rigid3 YamlValue::Rigid() const {
   constexpr double kFarthest_m = 100;  // beyond any robot and camera, and short of one in millimetres
   AllowKeys({"rotation_xyzw", "translation_m"});
   const YamlValue translation = Get("translation_m");
-  const Rigid3 transform{Get("rotation_xyzw").Rotation(), translation.Vector3()};
+  Rigid3 transform{Get("rotation_xyzw").Rotation(), translation.Vector3()};
   if (transform.translation.norm() > kFarthest_m)
     translation.Fail(fmt::format("is {:.4g} m long", transform.translation.norm()),
                      "give lengths in metres, not in millimetres");
