@@ -114,9 +114,9 @@ void Write(const CalibrationRun& run, const std::string& json, const std::string
   });
 }
 
-void Print(const CalibrationRun& run, const FoundParameters& found, const std::string& json,
-           const Console& console) {
-  console.err << WarningsText(Warnings(run, found));
+void Print(const CalibrationRun& run, const FoundParameters& found, const std::vector<std::string>& warnings,
+           const std::string& json, const Console& console) {
+  console.err << WarningsText(warnings);
   if (run.settings.prints_json)
     console.out << json;
   else
@@ -143,11 +143,12 @@ int RunCalibrate(const CalibrateSettings& settings, const Console& console) {
   run.result.times.total_s = total.Seconds();
 
   const FoundParameters found = WhatWasFound(run);
-  const nlohmann::ordered_json calibration = CalibrationJson(run, found);
+  const std::vector<std::string> warnings = Warnings(run, found);
+  const nlohmann::ordered_json calibration = CalibrationJson(run, found, warnings);
   const std::string json = JsonText(calibration);
   Write(run, json, RenderReportPage(ReportData(run, found, calibration, images)));
   progress.Clear();
-  Print(run, found, json, console);
+  Print(run, found, warnings, json, console);
   return run.result.calibration.status == CalibrationStatus::kConverged ? kExitSuccess : kExitNoResult;
 }
 

@@ -18,16 +18,6 @@ const Names<LensModel> kLenses = {{"pinhole", LensModel::kPinhole},
                                   {"brown-conrady", LensModel::kBrownConrady},
                                   {"rational", LensModel::kRational}};
 
-const Names<bool HeldParameters::*> kHolds = {
-    {"focal-length", &HeldParameters::focal_length},
-    {"principal-point", &HeldParameters::principal_point},
-    {"distortion", &HeldParameters::distortion},
-    {"base-joints", &HeldParameters::base_joints},
-    {"platform-joints", &HeldParameters::platform_joints},
-    {"radii", &HeldParameters::radii},
-    {"joint-offsets", &HeldParameters::joint_offsets},
-};
-
 template <typename Value>
 std::vector<std::string> NamesOf(const Names<Value>& table) {
   std::vector<std::string> names;
@@ -43,7 +33,7 @@ std::optional<Value> Find(const Names<Value>& table, const std::string& name) {
 
 HeldParameters HeldBy(const CalibrateSettings& settings) {
   HeldParameters held;
-  for (const std::string& name : settings.hold) held.*Find(kHolds, name).value() = true;
+  for (const std::string& name : settings.hold) held.*Find(kHoldFields, name).value() = true;
   return held;
 }
 
@@ -59,7 +49,7 @@ bool KnowsASize(const CalibrateSettings& settings, const PriorKnowledge& known) 
 }  // namespace
 
 std::vector<std::string> LensNames() { return NamesOf(kLenses); }
-std::vector<std::string> HoldNames() { return NamesOf(kHolds); }
+std::vector<std::string> HoldNames() { return NamesOf(kHoldFields); }
 std::vector<std::string> KnownNames() { return NamesOf(kKnownFields); }
 std::optional<LensModel> LensFromName(const std::string& name) { return Find(kLenses, name); }
 

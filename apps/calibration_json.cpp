@@ -179,12 +179,13 @@ void AddProvenance(const CalibrationRun& run, ordered_json& json) {
 
 }  // namespace
 
-ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found) {
+ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found,
+                             const std::vector<std::string>& warnings) {
   const LegCalibration& calibration = run.result.calibration;
   ordered_json json = {{"status", ToString(calibration.status)},
                        {"message", WhyThereIsNoModel(run)},
                        {"assumption", AssumptionText(run.settings, run.session.known)}};
-  json["warnings"] = Warnings(run, found);
+  json["warnings"] = warnings;
   AddFit(run, json);
   AddObservations(run, json);
   AddParameters(run, found, json);

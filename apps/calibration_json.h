@@ -9,7 +9,8 @@
 namespace legible {
 
 // The document. Numbers that are not known are NaN, which become null in its text (JsonText).
-nlohmann::ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found);
+nlohmann::ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found,
+                                       const std::vector<std::string>& warnings);
 
 // {camera, legs} of the drawing and the first guess of the camera, in the form of the document above.
 nlohmann::ordered_json NominalJson(const Session& session);

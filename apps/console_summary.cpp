@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "apps/judgement.h"
+#include "apps/wording.h"
 
 namespace legible {
 namespace {
@@ -17,10 +18,6 @@ constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json ha
 std::string Capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
-}
-
-std::string Plural(int count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string HeadLine(const CalibrationRun& run) {

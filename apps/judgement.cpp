@@ -8,6 +8,7 @@
 #include <map>
 
 #include "apps/prior_pulls.h"
+#include "apps/wording.h"
 #include "core/vision/median.h"
 
 namespace legible {
@@ -55,16 +56,15 @@ void AddImagesLeftOut(const CalibrationRun& run, Sentences& sentences) {
                                           : fmt::format("{} of {} images left out: {} ({})", names.size(),
                                                         run.result.images.size(), reason, Few(names)));
   if (const auto& unlisted = run.session.unlisted_images; !unlisted.empty())
-    sentences.push_back(fmt::format(
-        "{} of the session's folder without a row in joints.csv took no part ({})",
-        unlisted.size() == 1 ? "1 image" : fmt::format("{} images", unlisted.size()), Few(unlisted)));
+    sentences.push_back(
+        fmt::format("{} of the session's folder without a row in joints.csv took no part ({})",
+                    Plural(static_cast<int>(unlisted.size()), "image"), Few(unlisted)));
 }
 
 bool SeesATag(const CalibrationRun& run) {
-  for (const TagGroup& group : run.session.tags->groups)
-    for (const ImageOutcome& image : run.result.images)
-      if (!Match(group, image.tags).corners_px.empty()) return true;
-  return false;
+  const std::vector<TagGroup>& groups = run.session.tags->groups;
+  return std::any_of(groups.begin(), groups.end(),
+                     [&](const TagGroup& group) { return IsSeen(group, run.result.images); });
 }
 
 void AddStart(const CalibrationRun& run, Sentences& sentences) {
@@ -99,9 +99,9 @@ void AddReadings(const CalibrationRun& run, Sentences& sentences) {
 void AddExtent(const CalibrationRun& run, Sentences& sentences) {
   if (const int images = CountUsedImages(run.result); images < kFewImages)
     sentences.push_back(
-        fmt::format("only {} image{} used: the model may be worse than the drawing in other poses; forty in "
+        fmt::format("only {} {} used: the model may be worse than the drawing in other poses; forty in "
                     "clearly different ones are a good number",
-                    images, images == 1 ? " was" : "s were"));
+                    Plural(images, "image"), images == 1 ? "was" : "were"));
   if (const EdgeCounts edges = CountEdges(run.result); 2 * edges.used < edges.in_sight)
     sentences.push_back(
         fmt::format("only {} of {} edges in sight could be used: the report shows which, and why not",
@@ -223,9 +223,7 @@ std::string WhyThereIsNoModel(const CalibrationRun& run) {
   if (used < kTooFewImages)
     return fmt::format(
         "{} could be used, too few to determine the parameters; give some forty in clearly different poses",
-        used == 0   ? "no image"
-        : used == 1 ? "only 1 image"
-                    : fmt::format("only {} images", used));
+        used == 0 ? "no image" : "only " + Plural(used, "image"));
   if (calibration.status == CalibrationStatus::kUnobservable) return kParametersOpen;
   return calibration.message;
 }

@@ -63,11 +63,12 @@ json OutlineJson(const std::vector<PredictedEdgePoint>& outline) {
 json SamplesJson(const LegEdge& edge, const EdgeResidualSet* residuals,
                  const std::vector<PredictedEdgePoint>& outline) {
   json samples = json::array();
+  const Eigen::VectorXd weights = residuals ? residuals->CountedWeight() : Eigen::VectorXd();
   for (size_t i = 0; i < edge.observation.samples.size(); ++i) {
     const Eigen::Vector2d& point = edge.observation.samples[i].point_px;
     const auto row = static_cast<Eigen::Index>(i);
     const double residual_px = residuals ? residuals->residual_px[row] : kUnknown;
-    const double weight = residuals ? residuals->CountedWeight()[row] : kUnknown;
+    const double weight = residuals ? weights[row] : kUnknown;
     samples.push_back({Rounded(point.x()), Rounded(point.y()), Rounded(residual_px, 1e4), Rounded(weight),
                        Rounded(PlaceAlongLeg(outline, point))});
   }

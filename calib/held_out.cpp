@@ -114,12 +114,12 @@ HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& so
                       const LegCalibrationOptions& options, const std::vector<int>& fold_of_image) {
   if (fold_of_image.size() != input.images.size())
     throw std::invalid_argument("CrossValidate: a fold for each image is needed");
-  const int folds =
-      fold_of_image.empty() ? 0 : *std::max_element(fold_of_image.begin(), fold_of_image.end()) + 1;
   HeldOut result;
+  if (!fold_of_image.empty())
+    result.folds = *std::max_element(fold_of_image.begin(), fold_of_image.end()) + 1;
   result.image_rms_px.resize(input.images.size());
   Squares all;
-  for (int fold = 0; fold < folds; ++fold) {
+  for (int fold = 0; fold < result.folds; ++fold) {
     const LegCalibration trained = Train(input, solution, options, fold_of_image, fold);
     if (trained.status != CalibrationStatus::kConverged) {
       ++result.folds_failed;

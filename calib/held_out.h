@@ -13,6 +13,7 @@ namespace legible {
 struct HeldOut {
   std::optional<double> rms_px;                     // over all samples of all images that have a figure
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
+  int folds = 0;                                    // turns, of which some image was held out in each
   int folds_failed = 0;                             // in which the rest did not converge
 };
 

@@ -8,12 +8,6 @@
 namespace legible {
 namespace {
 
-constexpr bool HeldParameters::*kHoldable[] = {
-    &HeldParameters::focal_length,  &HeldParameters::principal_point, &HeldParameters::distortion,
-    &HeldParameters::base_joints,   &HeldParameters::platform_joints, &HeldParameters::radii,
-    &HeldParameters::joint_offsets,
-};
-
 void AppendDifferences(const LegCalibration& held, const LegCalibration& released, double least_sigmas,
                        std::vector<HeldDifference>& differences) {
   const ModelCovariance before = CovarianceOfModel(held), after = CovarianceOfModel(released);
@@ -34,7 +28,7 @@ std::vector<HeldDifference> DifferencesOfHeld(const LegCalibrationInput& input,
   again.start = CalibrationStart{solution.camera, solution.robot, solution.camera_from_base,
                                  solution.camera_from_platform};
   std::vector<HeldDifference> differences;
-  for (bool HeldParameters::*const thing : kHoldable) {
+  for (const auto& [name, thing] : kHoldFields) {
     if (!(options.hold.*thing)) continue;
     LegCalibrationOptions released = options;
     released.hold.*thing = false;

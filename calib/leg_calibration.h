@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/base_frame.h"
@@ -53,6 +54,18 @@ struct HeldParameters {
   bool platform_joints = false;
   bool radii = false;
   bool joint_offsets = false;
+};
+
+// By the names that options give them.
+using HoldField = bool HeldParameters::*;
+inline const std::vector<std::pair<std::string, HoldField>> kHoldFields = {
+    {"focal-length", &HeldParameters::focal_length},
+    {"principal-point", &HeldParameters::principal_point},
+    {"distortion", &HeldParameters::distortion},
+    {"base-joints", &HeldParameters::base_joints},
+    {"platform-joints", &HeldParameters::platform_joints},
+    {"radii", &HeldParameters::radii},
+    {"joint-offsets", &HeldParameters::joint_offsets},
 };
 
 struct LegCalibrationOptions {

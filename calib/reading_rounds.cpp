@@ -47,13 +47,16 @@ double ReadingRounds::Rms() const {
   return weight > 0 ? std::sqrt(Squares() / weight) : 0;
 }
 
-double ReadingRounds::Scatter() const {
-  if (rows_.empty()) return 0;
+double ReadingRounds::MedianSquare() const {
   std::vector<double> squares;
   squares.reserve(rows_.size());
   for (const Row& row : rows_) squares.push_back(row.square / static_cast<double>(row.readings.size()));
+  return MedianOf(std::move(squares));
+}
+
+double ReadingRounds::Scatter() const {
   constexpr double kMedianOfSix = 5.348 / 6;  // of chi^2 with as many freedoms, over them
-  return std::sqrt(MedianOf(std::move(squares)) / kMedianOfSix);
+  return rows_.empty() ? 0 : std::sqrt(MedianSquare() / kMedianOfSix);
 }
 
 std::vector<OutlyingReading> ReadingRounds::Outlying() const {
@@ -130,10 +133,7 @@ void ReadingRounds::Loosen(double scale) {
 
 double ReadingRounds::Reweight() {
   if (rows_.empty()) return 0;
-  std::vector<double> squares;
-  squares.reserve(rows_.size());
-  for (const Row& row : rows_) squares.push_back(row.square / static_cast<double>(row.readings.size()));
-  const double scale = std::max(MedianOf(std::move(squares)), 1.0);
+  const double scale = std::max(MedianSquare(), 1.0);
   double change = 0;
   for (Row& row : rows_) {
     const double before = row.weight;

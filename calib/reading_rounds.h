@@ -62,6 +62,7 @@ class ReadingRounds {
   };
   Linearised Linearise(const Row& row) const;
   void Predict(const Linearised& at, Row& row) const;
+  double MedianSquare() const;  // of the rows' squares, a reading; there is a row
   void SetSigmas(const Row& row, double factor);
 
   EstimationProblem& problem_;

@@ -164,9 +164,7 @@ class SessionCalibrator {
           std::find_if(groups.begin(), groups.end(), [&](const TagGroup& one) { return one.name == name; });
       if (group == groups.end())
         throw std::invalid_argument(fmt::format("the session has no tag group \"{}\"", name));
-      if (std::none_of(result_.images.begin(), result_.images.end(), [&](const ImageOutcome& image) {
-            return !Match(*group, image.tags).corners_px.empty();
-          }))
+      if (!IsSeen(*group, result_.images))
         throw std::invalid_argument(
             fmt::format("the tags {} are to be observations, but no image shows one of them", name));
     }
@@ -352,9 +350,9 @@ class SessionCalibrator {
     const std::vector<size_t>& used = result_.estimated;
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
     if (options_.folds > 1) {
-      const std::vector<int> folds = FoldsOf(used.size(), options_.folds, options_.seed);
-      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation, folds);
-      result_.held_out_folds = std::min(options_.folds, static_cast<int>(used.size()));
+      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
+                                             FoldsOf(used.size(), options_.folds, options_.seed));
+      result_.held_out_folds = held_out.folds;
       result_.held_out_rms_px = held_out.rms_px;
       result_.held_out_folds_failed = held_out.folds_failed;
       for (size_t k = 0; k < used.size(); ++k)
@@ -438,6 +436,11 @@ void SessionCalibrationOptions::Check() const {
   edges.Check();
   if (scouts < 1 || threads < 1 || folds < 0)
     throw std::invalid_argument("scouts, threads and folds must be positive");
+}
+
+bool IsSeen(const TagGroup& group, const std::vector<ImageOutcome>& images) {
+  return std::any_of(images.begin(), images.end(),
+                     [&](const ImageOutcome& image) { return !Match(group, image.tags).corners_px.empty(); });
 }
 
 EdgeCounts CountEdges(const SessionCalibration& result) {

@@ -44,6 +44,9 @@ struct ImageOutcome {
   std::optional<double> held_out_rms_px;  // of the samples, predicted by a model that has not seen the image
 };
 
+// Whether any of the images shows a tag of the group.
+bool IsSeen(const TagGroup& group, const std::vector<ImageOutcome>& images);
+
 // Tags on the base or platform, predicted by the calibrated model, against where they were seen.
 struct TagCheck {
   std::string group;
