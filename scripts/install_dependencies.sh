@@ -21,12 +21,15 @@ nlohmann-json3-dev   writes JSON
 libcli11-dev         command line
 libfmt-dev           formatted text
 libtbb-dev           works on several images at a time
+libqhull-dev         convex hulls of errors
+libboost-dev         Sobol points, Gauss rules
 zlib1g-dev           whether a PNG is whole
 libssl-dev           SHA-256 of a session, base64 of pictures
 libgtest-dev         tests
 libgmock-dev         tests
 libbenchmark-dev     benchmarks
 libvisp-me-dev       benchmarks: ViSP's moving edges, to compare with
+chromium             tests: opens the report's pages
 LIST
 }
 

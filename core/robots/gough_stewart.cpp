@@ -78,6 +78,37 @@ Matrix6d InverseJacobian(const GoughStewart& robot, const Rigid3& base_from_plat
   return InverseJacobian(LegVectorsAt(robot, base_from_platform), 1);
 }
 
+FullInverseJacobian FullInverseJacobianOf(const GoughStewart& robot, const Rigid3& base_from_platform) {
+  return {InverseJacobian(robot, base_from_platform), kLegCount, 3};
+}
+
+const std::array<std::string, kGeometryCount>& GeometryNames() {
+  static const std::array<std::string, kGeometryCount> names = [] {
+    constexpr std::array<const char*, kGeometryPerLeg> kOfLeg = {
+        "base_joint_m.x",     "base_joint_m.y",     "base_joint_m.z", "platform_joint_m.x",
+        "platform_joint_m.y", "platform_joint_m.z", "joint_offset_m"};
+    std::array<std::string, kGeometryCount> all;
+    for (size_t i = 0; i < all.size(); ++i)
+      all[i] = "legs[" + std::to_string(i / kGeometryPerLeg + 1) + "]." + kOfLeg[i % kGeometryPerLeg];
+    return all;
+  }();
+  return names;
+}
+
+Eigen::Matrix<double, kLegCount, kGeometryCount> ReadingsByGeometry(const GoughStewart& robot,
+                                                                    const Rigid3& base_from_platform) {
+  const LegVectors legs = LegVectorsAt(robot, base_from_platform);
+  const Eigen::Matrix3d platform_rotation_base = base_from_platform.rotation.toRotationMatrix().transpose();
+  Eigen::Matrix<double, kLegCount, kGeometryCount> derivative;
+  derivative.setZero();
+  for (int i = 0; i < kLegCount; ++i) {
+    const Eigen::Vector3d u = legs.direction.col(i);
+    derivative.block<1, kGeometryPerLeg>(i, kGeometryPerLeg * i) << -u.transpose(),
+        (platform_rotation_base * u).transpose(), -1;
+  }
+  return derivative;
+}
+
 const char* ToString(ForwardKinematicsStatus status) {
   switch (status) {
     case ForwardKinematicsStatus::kConverged:

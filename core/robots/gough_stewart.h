@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/geometry/rigid3.h"
+#include "core/robots/full_inverse_jacobian.h"
 
 namespace legible {
 
@@ -32,6 +33,22 @@ Vector6d InverseKinematics(const GoughStewart& robot, const Rigid3& base_from_pl
 // whose v is the velocity of the platform's origin; b_i = base_rotation_platform B_i (m), u_i the leg's
 // direction A to B.
 Matrix6d InverseJacobian(const GoughStewart& robot, const Rigid3& base_from_platform);
+
+// The same as the accuracy of any robot is computed from.
+FullInverseJacobian FullInverseJacobianOf(const GoughStewart& robot, const Rigid3& base_from_platform);
+
+// Parameters of the geometry that move the platform: for each leg A (base), B (platform) and the joint
+// offset, m.
+inline constexpr int kGeometryPerLeg = 7;
+inline constexpr int kGeometryCount = kGeometryPerLeg * kLegCount;
+
+// Names as model.yaml has them: "legs[1].base_joint_m.x", …, "legs[6].joint_offset_m".
+const std::array<std::string, kGeometryCount>& GeometryNames();
+
+// d(joint readings) / d(geometry) at a fixed pose, 6 x 42. With J the inverse of InverseJacobian, a platform
+// whose readings are kept moves by -J times this (Merlet 2006, section 2, the design parameters P).
+Eigen::Matrix<double, kLegCount, kGeometryCount> ReadingsByGeometry(const GoughStewart& robot,
+                                                                    const Rigid3& base_from_platform);
 
 enum class ForwardKinematicsStatus {
   kConverged,
