@@ -22,13 +22,16 @@ std::string WithoutMarkup(std::string_view json) {
   return safe;
 }
 
+std::string Render(const PageTemplate& page, const nlohmann::json& data) {
+  std::string text(page.before_data);
+  text += WithoutMarkup(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  text += page.after_data;
+  return text;
+}
+
 }  // namespace
 
-std::string RenderReportPage(const nlohmann::json& data) {
-  std::string page(PageBeforeData());
-  page += WithoutMarkup(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  page += PageAfterData();
-  return page;
-}
+std::string RenderCalibrationPage(const nlohmann::json& data) { return Render(CalibrationPage(), data); }
+std::string RenderAccuracyPage(const nlohmann::json& data) { return Render(AccuracyPage(), data); }
 
 }  // namespace legible

@@ -1,4 +1,5 @@
-// The calibration report: one HTML page that needs nothing beside it, neither files nor a network.
+// The reports: each one HTML page that needs nothing beside it, neither files nor a network. What is null or
+// not finite in their data is shown as a dash; bytes that are not UTF-8 are replaced by U+FFFD.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +7,7 @@
 
 namespace legible {
 
-// The page report.html with `data` embedded as JSON. Its members, all optional:
+// The calibration report (report.html) with `data` embedded as JSON. Its members, all optional:
 //   title, program_version, session    texts
 //   calibration                        what calibration.json holds
 //   nominal                            {camera, legs}: where the calibration started
@@ -20,8 +21,22 @@ namespace legible {
 //   pull_sigma}],
 //                                      [{name, text, rms_px, mm}], {name: value}
 // Units as in all files; legs and edges count from 1; a place is 0 at the base joint, 1 at the platform
-// joint; residuals are positive outward. What is null or not finite is shown as a dash. Bytes that are not
-// UTF-8 are replaced by U+FFFD.
-std::string RenderReportPage(const nlohmann::json& data);
+// joint; residuals are positive outward.
+std::string RenderCalibrationPage(const nlohmann::json& data);
+
+// The accuracy report with `data` embedded as JSON; a part without data is left out. Its members, all
+// optional:
+//   title, program_version, model   texts
+//   document   what `legible accuracy --format json` prints; its `units` say the units of all its numbers
+//   robot      {legs: [{base_joint_m, platform_joint_m, radius_m}]}, joints in base and in platform
+//   poses_si   [{rotation_xyzw, translation_m}]: base_from_platform of each of document.poses
+//   maps       {x, y: {label, unit, values}, fixed (text), quantities: [{key, label, unit, values}],
+//              states}: errors over a slice of the workspace. values[j][i] and states[j][i] belong to
+//              x.values[i] and y.values[j], which are equally spaced; a state is 0 (fine), 1 (outside the
+//              joint ranges) or 2 (singular, or near it)
+//   scatter    {over (text), names, indices, errors: [{key, label, unit, values}]}: indices against errors,
+//              one value for each of names; the errors' keys are "position" and "rotation"
+// The picture of the robot takes errors as displacements of the platform in the axes of base.
+std::string RenderAccuracyPage(const nlohmann::json& data);
 
 }  // namespace legible

@@ -1,19 +1,25 @@
-# Joins template.html, styles.css and the bundle into one page, cut in two where the data go, and writes a C++
-# source whose assembler includes both parts byte by byte.
-# Called with -DSOURCE=<this folder> -DBUILD=<its build folder, with report.js and node_modules>.
+# Joins one page's HTML, the styles and the bundle, cut in two where the data go, and writes a C++ source whose
+# assembler includes both parts byte by byte.
+# Called with -DSOURCE=<this folder> -DBUILD=<its build folder, with node_modules and the bundle> and
+# -DPAGE=<calibration|accuracy> -DFUNCTION=<the function of page_template.h to define>
+# -DPACKAGES=<the npm packages in the bundle, separated by commas>.
 
-file(READ ${SOURCE}/template.html page)
-file(READ ${SOURCE}/styles.css style)
-file(READ ${BUILD}/report.js script)
+set(room ${SOURCE}/src/${PAGE})
+file(READ ${room}/${PAGE}.html page)
+file(READ ${SOURCE}/src/shared/styles.css shared_style)
+file(READ ${room}/styles.css own_style)
+file(READ ${BUILD}/${PAGE}.js script)
 
 # The licences of what is bundled ask to be passed on.
 set(licences "")
-foreach(package @observablehq/plot d3 d3-ease d3-scale-chromatic)
-  file(READ ${BUILD}/node_modules/${package}/LICENSE licence)
+string(REPLACE "," ";" packages "${PACKAGES}")
+foreach(package ${packages})
+  file(GLOB licence_file ${BUILD}/node_modules/${package}/LICENSE*)
+  file(READ ${licence_file} licence)
   string(APPEND licences "${package}\n\n${licence}\n")
 endforeach()
 
-string(REPLACE "@STYLE@" "${style}" page "${page}")
+string(REPLACE "@STYLE@" "${shared_style}\n${own_style}" page "${page}")
 string(REPLACE "@SCRIPT@" "/* This page contains:\n\n${licences}*/\n${script}" page "${page}")
 
 set(mark "@DATA@")
@@ -22,29 +28,32 @@ string(LENGTH "${mark}" mark_length)
 math(EXPR after_start "${before_length} + ${mark_length}")
 string(SUBSTRING "${page}" 0 ${before_length} before)
 string(SUBSTRING "${page}" ${after_start} -1 after)
-file(WRITE ${BUILD}/page_before_data.html "${before}")
-file(WRITE ${BUILD}/page_after_data.html "${after}")
+file(WRITE ${BUILD}/${PAGE}_before_data.html "${before}")
+file(WRITE ${BUILD}/${PAGE}_after_data.html "${after}")
 
-file(WRITE ${BUILD}/report_template.cpp [[
+set(template [[
 #include "apps/report/page_template.h"
 
 asm(".pushsection .rodata, \"a\"\n"
-    "legible_page_before_data: .incbin \"@BUILD@/page_before_data.html\"\n"
-    "legible_page_before_data_end:\n"
-    "legible_page_after_data: .incbin \"@BUILD@/page_after_data.html\"\n"
-    "legible_page_after_data_end:\n"
-    ".globl legible_page_before_data, legible_page_before_data_end\n"
-    ".globl legible_page_after_data, legible_page_after_data_end\n"
+    "legible_@PAGE@_before_data: .incbin \"@BUILD@/@PAGE@_before_data.html\"\n"
+    "legible_@PAGE@_before_data_end:\n"
+    "legible_@PAGE@_after_data: .incbin \"@BUILD@/@PAGE@_after_data.html\"\n"
+    "legible_@PAGE@_after_data_end:\n"
+    ".globl legible_@PAGE@_before_data, legible_@PAGE@_before_data_end\n"
+    ".globl legible_@PAGE@_after_data, legible_@PAGE@_after_data_end\n"
     ".popsection\n");
 
-extern "C" const char legible_page_before_data[], legible_page_before_data_end[];
-extern "C" const char legible_page_after_data[], legible_page_after_data_end[];
+extern "C" const char legible_@PAGE@_before_data[], legible_@PAGE@_before_data_end[];
+extern "C" const char legible_@PAGE@_after_data[], legible_@PAGE@_after_data_end[];
 
 namespace legible {
 
-std::string_view PageBeforeData() { return {legible_page_before_data, legible_page_before_data_end}; }
-std::string_view PageAfterData() { return {legible_page_after_data, legible_page_after_data_end}; }
+PageTemplate @FUNCTION@() {
+  return {.before_data = {legible_@PAGE@_before_data, legible_@PAGE@_before_data_end},
+          .after_data = {legible_@PAGE@_after_data, legible_@PAGE@_after_data_end}};
+}
 
 }  // namespace legible
 ]])
-configure_file(${BUILD}/report_template.cpp ${BUILD}/report_template.cpp @ONLY)
+string(CONFIGURE "${template}" source @ONLY)
+file(WRITE ${BUILD}/${PAGE}_template.cpp "${source}")

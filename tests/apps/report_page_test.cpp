@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace legible {
 namespace {
@@ -38,34 +39,39 @@ json CalibratedData() {
       {"options", {{"note", "quotes \" and \\ and \n new lines, 3 < 4 > 2"}}}};
 }
 
-TEST(ReportPage, EmbedsDataThatParseBackEqual) {
+struct Page {
+  const char* name;
+  std::string (*render)(const json&);
+  std::vector<const char*> headings;
+};
+
+class ReportPage : public testing::TestWithParam<Page> {};
+
+TEST_P(ReportPage, EmbedsDataThatParseBackEqual) {
   const json data = CalibratedData();
-  EXPECT_EQ(json::parse(EmbeddedData(RenderReportPage(data))), data);
+  EXPECT_EQ(json::parse(EmbeddedData(GetParam().render(data))), data);
 }
 
-TEST(ReportPage, TextsOfTheDataCannotEndOrHideTheScriptElement) {
+TEST_P(ReportPage, TextsOfTheDataCannotEndOrHideTheScriptElement) {
   for (const std::string attack :
        {"</script><script>alert(1)</script>", "<!--<script>", "</SCRIPT >", "<![CDATA["}) {
     const json data = {{"images", {{{"name", attack}}}}};
-    const std::string page = RenderReportPage(data);
+    const std::string page = GetParam().render(data);
     EXPECT_EQ(json::parse(EmbeddedData(page)), data);
     EXPECT_THAT(EmbeddedData(page), Not(HasSubstr("<")));
     EXPECT_THAT(page, Not(HasSubstr(attack)));
-    EXPECT_EQ(Count(page, "<script"), Count(RenderReportPage(json::object()), "<script"));
+    EXPECT_EQ(Count(page, "<script"), Count(GetParam().render(json::object()), "<script"));
   }
 }
 
-TEST(ReportPage, HasEverySectionEvenWithoutData) {
-  const std::string page = RenderReportPage(json::object());
-  for (const char* heading :
-       {"Verdict", "Parameters: found and drawn", "Residuals", "Pictures with found and predicted edges",
-        "What was left out", "Correlations", "Weak directions", "Prior knowledge and its pull", "Checks",
-        "Options and provenance", "Time"})
+TEST_P(ReportPage, HasEverySectionEvenWithoutData) {
+  const std::string page = GetParam().render(json::object());
+  for (const char* heading : GetParam().headings)
     EXPECT_THAT(page, HasSubstr(std::string("<h2>") + heading + "</h2>"));
 }
 
-TEST(ReportPage, IsOneWholeDocumentThatLoadsNothing) {
-  const std::string page = RenderReportPage(CalibratedData());
+TEST_P(ReportPage, IsOneWholeDocumentThatLoadsNothing) {
+  const std::string page = GetParam().render(CalibratedData());
   EXPECT_EQ(page.find("<!doctype html>"), 0u);
   EXPECT_THAT(page, testing::EndsWith("</html>\n"));
   for (const char* leftover : {"@STYLE@", "@SCRIPT@", "@DATA@"}) EXPECT_THAT(page, Not(HasSubstr(leftover)));
@@ -73,14 +79,34 @@ TEST(ReportPage, IsOneWholeDocumentThatLoadsNothing) {
     EXPECT_THAT(page, Not(HasSubstr(load)));
 }
 
-TEST(ReportPage, NumbersThatAreNotFiniteAreEmbeddedAsNull) {
+TEST_P(ReportPage, NumbersThatAreNotFiniteAreEmbeddedAsNull) {
   const json data = {{"calibration", {{"rms_px", std::numeric_limits<double>::quiet_NaN()}}}};
-  EXPECT_TRUE(json::parse(EmbeddedData(RenderReportPage(data)))["calibration"]["rms_px"].is_null());
+  EXPECT_TRUE(json::parse(EmbeddedData(GetParam().render(data)))["calibration"]["rms_px"].is_null());
 }
 
-TEST(ReportPage, BytesThatAreNotUtf8AreReplaced) {
+TEST_P(ReportPage, BytesThatAreNotUtf8AreReplaced) {
   const json data = {{"session", "caf\xe9/session"}};
-  EXPECT_EQ(json::parse(EmbeddedData(RenderReportPage(data)))["session"], "caf\xef\xbf\xbd/session");
+  EXPECT_EQ(json::parse(EmbeddedData(GetParam().render(data)))["session"], "caf\xef\xbf\xbd/session");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pages, ReportPage,
+    testing::Values(
+        Page{"Calibration",
+             RenderCalibrationPage,
+             {"Verdict", "Parameters: found and drawn", "Residuals",
+              "Pictures with found and predicted edges", "What was left out", "Correlations",
+              "Weak directions", "Prior knowledge and its pull", "Checks", "Options and provenance", "Time"}},
+        Page{"Accuracy",
+             RenderAccuracyPage,
+             {"Summary", "The robot and its errors", "Largest errors", "Where the error comes from",
+              "Indices", "All poses", "Map of the errors", "Do the indices tell the errors?",
+              "Over the workspace", "Conventions, definitions, provenance"}}),
+    [](const auto& page) { return page.param.name; });
+
+TEST(ReportPages, AreDifferentPages) {
+  EXPECT_THAT(RenderCalibrationPage(json::object()), HasSubstr("<title>Calibration report</title>"));
+  EXPECT_THAT(RenderAccuracyPage(json::object()), HasSubstr("<title>Accuracy report</title>"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { judge } from "../src/judgement.js";
+import { judge } from "../src/calibration/judgement.js";
 
 const converged = (changes = {}, calibration = {}) => ({
   title: "Hexapod",

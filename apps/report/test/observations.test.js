@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { orderedParameters } from "../src/correlations.js";
-import { groupedByReason } from "../src/left_out.js";
+import { orderedParameters } from "../src/calibration/correlations.js";
+import { groupedByReason } from "../src/calibration/left_out.js";
 import {
   leftOutEdges,
   meanAlong,
@@ -9,8 +9,8 @@ import {
   thinned,
   usedEdges,
   usedSamples,
-} from "../src/observations.js";
-import { outwardNormal } from "../src/overlay.js";
+} from "../src/calibration/observations.js";
+import { outwardNormal } from "../src/calibration/overlay.js";
 
 const DATA = {
   images: [

@@ -1,0 +1,33 @@
+// Numbers as elements that keep all their digits, for the copy button and for tests.
+import { barCell, html } from "../shared/dom.js";
+import { MISSING, isNumber, significant } from "../shared/format.js";
+
+// path: where in the selected pose the number stands, such as "max_error.position"; with a leading "document." where
+// in the document.
+export const number = (value, path = null, text = significant(value)) =>
+  html("data", { value: isNumber(value) ? String(value) : null, "data-value": path }, text);
+
+// A number and a bar beside it, as long as the cell at `full`; the number stays in its place where there is none.
+export const barred = (value, full, path) => [
+  number(value, path),
+  " ",
+  barCell(value, full) || html("span", { class: "bar empty" }),
+];
+
+export const withUnit = (element, unit) =>
+  unit && element.textContent !== MISSING
+    ? html("span", null, element, html("span", { class: "unit" }, ` ${unit}`))
+    : element;
+
+// {value, half_width} -> "0.0512 ± 0.0003"; the half width with two digits.
+export function estimate(found) {
+  if (!isNumber(found?.value)) return MISSING;
+  const width = found.half_width;
+  if (!isNumber(width)) return number(found.value);
+  return html(
+    "span",
+    { class: "estimate" },
+    number(found.value),
+    html("span", { class: "muted" }, " ± ", html("data", { value: String(width) }, significant(width, 2))),
+  );
+}

@@ -1,0 +1,130 @@
+// The correlations of the parameters as a map, and the strongest pairs as a table.
+import * as Plot from "@observablehq/plot";
+import { append, figure, html, muted, table } from "../shared/dom.js";
+import { fixed, isNumber } from "../shared/format.js";
+import { describeParameter, parameterTitle } from "../shared/parameter_names.js";
+import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
+
+const STRONGEST_PAIRS = 12;
+
+export function renderCorrelations(section, data) {
+  const parameters = orderedParameters(data.correlations ?? {});
+  if (parameters.length < 2) {
+    append(section, muted("Not available: no covariance was computed."));
+    return;
+  }
+  const cells = cellsOf(parameters, data.correlations.matrix);
+  append(
+    section,
+    muted(
+      "How the errors of two parameters go together: 1 or −1 means that the images tell only a combination " +
+        "of the two, 0 that they tell them apart.",
+    ),
+    html(
+      "div",
+      { class: "beside" },
+      figure(
+        mapCaption(),
+        responsive((width) => map(parameters, cells, width)),
+      ),
+      pairTable(cells),
+    ),
+  );
+}
+
+// [{name, row, group, label}] by group, camera first; without those that have no correlations (held fixed).
+export function orderedParameters({ names = [], matrix = [] }) {
+  const known = (index) => (matrix[index] ?? []).some((value, other) => other !== index && isNumber(value));
+  const rank = ({ group }) =>
+    group === "Camera" ? 0 : group === "Other" ? Infinity : Number(group.slice(4));
+  return names
+    .map((name, row) => ({ name, row, ...describeParameter(name) }))
+    .filter(({ row }) => known(row))
+    .sort((a, b) => (rank(a) === rank(b) ? a.row - b.row : rank(a) - rank(b)));
+}
+
+function cellsOf(parameters, matrix) {
+  return parameters
+    .flatMap((a, y) => parameters.map((b, x) => ({ a, b, x, y, value: matrix[a.row]?.[b.row] })))
+    .filter(({ value }) => isNumber(value));
+}
+
+function mapCaption() {
+  return html(
+    "span",
+    null,
+    html("span", { class: "swatch positive" }),
+    " positive, ",
+    html("span", { class: "swatch negative" }),
+    " negative; full colour is ± 1. Point at a cell to see its two parameters.",
+  );
+}
+
+function map(parameters, cells, available) {
+  const groups = groupSpans(parameters);
+  const size = Math.min(available, 530);
+  const margin = 58;
+  const scale = { type: "linear", domain: [-0.5, parameters.length - 0.5], axis: null };
+  return plot("Map of the correlations between all parameters", {
+    width: size,
+    height: size,
+    marginLeft: margin,
+    marginTop: 24,
+    marginRight: 4,
+    marginBottom: margin - 24,
+    x: scale,
+    y: { ...scale, reverse: true },
+    opacity: { type: "identity" },
+    color: { type: "identity" },
+    marks: [
+      Plot.rect(cells, {
+        x1: ({ x }) => x - 0.5,
+        x2: ({ x }) => x + 0.5,
+        y1: ({ y }) => y - 0.5,
+        y2: ({ y }) => y + 0.5,
+        fill: ({ value }) => (value > 0 ? "var(--positive)" : "var(--negative)"),
+        fillOpacity: ({ value }) => Math.abs(value),
+        shapeRendering: "crispEdges",
+      }),
+      ...groupMarks(groups, parameters.length),
+      Plot.tip(cells, Plot.pointer({ x: "x", y: "y", title: cellTitle, maxRadius: 12, ...TIP })),
+    ],
+  });
+}
+
+function groupSpans(parameters) {
+  const names = [...new Set(parameters.map(({ group }) => group))];
+  return names.map((name) => {
+    const first = parameters.findIndex(({ group }) => group === name);
+    const count = parameters.filter(({ group }) => group === name).length;
+    return { name, end: first + count - 0.5, middle: first + (count - 1) / 2 };
+  });
+}
+
+function groupMarks(groups, count) {
+  const line = { stroke: COLOR.muted, strokeWidth: 0.75 };
+  const inner = groups.slice(0, -1);
+  return [
+    Plot.ruleX(inner, { x: "end", ...line }),
+    Plot.ruleY(inner, { y: "end", ...line }),
+    Plot.text(groups, { x: "middle", y: -0.5, text: "name", dy: -9, fill: COLOR.text }),
+    Plot.text(groups, { x: -0.5, y: "middle", text: "name", dx: -7, textAnchor: "end", fill: COLOR.text }),
+    Plot.rect([0], { x1: -0.5, x2: count - 0.5, y1: -0.5, y2: count - 0.5, fill: null, ...line }),
+  ];
+}
+
+const cellTitle = ({ a, b, value }) =>
+  `${parameterTitle(a.name)}\n${a === b ? "with itself" : parameterTitle(b.name)}\n${fixed(value, 3)}`;
+
+function pairTable(cells) {
+  const pairs = cells.filter(({ x, y }) => x < y).sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
+  return table(
+    "Strongest pairs",
+    [
+      { label: "Parameter", text: true, cell: ({ b }) => parameterTitle(b.name) },
+      { label: "with", text: true, cell: ({ a }) => parameterTitle(a.name) },
+      { label: "Correlation", cell: ({ value }) => fixed(value, 3) },
+    ],
+    [{ rows: pairs.slice(0, STRONGEST_PAIRS) }],
+  );
+}

@@ -1,0 +1,34 @@
+// With what the calibration was run.
+import { append, definitions, html } from "../shared/dom.js";
+import { MISSING } from "../shared/format.js";
+
+export function renderOptions(section, data) {
+  const provenance = [
+    ["Program", data.program_version ? `legible ${data.program_version}` : MISSING],
+    ["Session", data.session ?? MISSING],
+  ];
+  const options = Object.entries(data.options ?? {}).map(([name, value]) => [spaced(name), inText(value)]);
+  append(
+    section,
+    html("h3", null, "Provenance"),
+    definitions(provenance, "list"),
+    html("h3", null, "Options"),
+    options.length ? definitions(options, "list") : html("p", { class: "muted" }, "All default."),
+  );
+}
+
+const spaced = (name) => name.replaceAll("_", " ");
+
+function inText(value) {
+  if (value === null || value === undefined || value === "") return MISSING;
+  if (typeof value === "boolean") return value ? "yes" : "no";
+  if (Array.isArray(value)) return value.length ? value.map(inText).join(", ") : "none";
+  if (typeof value === "object") {
+    return (
+      Object.entries(value)
+        .map(([name, part]) => `${spaced(name)}: ${inText(part)}`)
+        .join("; ") || "none"
+    );
+  }
+  return String(value);
+}

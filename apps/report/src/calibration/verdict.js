@@ -1,0 +1,65 @@
+// The verdict in plain words, and the key figures.
+import { append, definitions, html, paragraph } from "../shared/dom.js";
+import { MISSING, decimalsFor, fixed, isNumber, significant, withUnit } from "../shared/format.js";
+import { judge } from "./judgement.js";
+
+const SYMBOL = { good: "✓", care: "!", bad: "✕" };
+
+export function renderVerdict(section, data) {
+  const judgement = judge(data);
+  append(section, verdictBox(judgement), definitions(keyFigures(data.calibration ?? {}), "figures"));
+}
+
+function verdictBox({ level, headline, sentences, warnings, open, advice }) {
+  return html(
+    "div",
+    { class: `verdict ${level}`, role: "status" },
+    html("p", { class: "headline" }, html("span", { "aria-hidden": "true" }, SYMBOL[level]), headline),
+    sentences.map((text) => paragraph(text)),
+    list("What cannot be determined", open),
+    list("Look at", warnings),
+    list("What to do", advice),
+  );
+}
+
+const list = (title, items) =>
+  items.length > 0 && [
+    html("h3", null, title),
+    html(
+      "ul",
+      null,
+      items.map((item) => html("li", null, item)),
+    ),
+  ];
+
+function keyFigures(calibration) {
+  const { rms_px: fit, held_out: heldOut, edge_sigma_px: noise, camera, legs, time_s: time } = calibration;
+  return [
+    ["Residual of the fit", pixels(fit), "root mean square, distance from the predicted edge"],
+    ["Held-out images", pixels(heldOut?.rms_px), "the same, in images that took no part in the fit"],
+    ["Noise of one edge point", pixels(noise), "standard deviation, from the residuals"],
+    ["Images used", usedOf(calibration.images_used, calibration.images_left_out?.length)],
+    ["Edges used", calibration.edges_used ?? MISSING],
+    ["Focal length fx", plusMinus(camera?.fx, camera?.sigma?.fx, "px", 1)],
+    ["Base joints", largestSigma(legs, "base_joint_m", "mm", 1e3), "largest σ of a coordinate, base frame"],
+    ["Platform joints", largestSigma(legs, "platform_joint_m", "mm", 1e3), "largest σ of a coordinate"],
+    ["Radii", largestSigma(legs, "radius_m", "µm", 1e6), "largest σ"],
+    ["Joint offsets", largestSigma(legs, "joint_offset_m", "µm", 1e6), "largest σ"],
+    ["Time", withUnit(fixed(time?.total, 1), "s"), "files to result"],
+  ];
+}
+
+const pixels = (value) => withUnit(significant(value), "px");
+const usedOf = (used, leftOut) => (isNumber(used) ? `${used} of ${used + (leftOut ?? 0)}` : MISSING);
+
+function plusMinus(value, sigma, unit, scale) {
+  if (!isNumber(value)) return MISSING;
+  const decimals = decimalsFor(sigma * scale, 1);
+  const spread = isNumber(sigma) && sigma > 0 ? ` ± ${fixed(sigma * scale, decimals)}` : "";
+  return withUnit(fixed(value * scale, decimals) + spread, unit);
+}
+
+function largestSigma(legs, field, unit, scale) {
+  const sigmas = (legs ?? []).flatMap((leg) => leg?.sigma?.[field] ?? []).filter(isNumber);
+  return sigmas.length ? withUnit(significant(Math.max(...sigmas) * scale, 2), unit) : MISSING;
+}
