@@ -27,6 +27,7 @@ struct Ranking {
 };
 
 inline constexpr double kClearDifference = 0.1;    // relative to the smaller error
+inline constexpr size_t kLeastClearPairs = 30;     // on which a judgement may rest
 inline constexpr double kTrustedMisranked = 0.01;  // an index that misranks fewer pairs may be trusted
 
 // `badness` is the index, turned round where its large values are the good ones. Infinite badness is allowed;

@@ -9,12 +9,14 @@
 #include "apps/calibration_report.h"
 #include "apps/calibration_run.h"
 #include "apps/console_summary.h"
+#include "apps/json_text.h"
 #include "apps/judgement.h"
 #include "apps/output_folder.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/report_images.h"
 #include "apps/report_page.h"
+#include "apps/wording.h"
 #include "core/stopwatch.h"
 #include "core/vision/gray_image.h"
 #include "datasets/atomic_file.h"
@@ -146,7 +148,7 @@ int RunCalibrate(const CalibrateSettings& settings, const Console& console) {
   const std::vector<std::string> warnings = Warnings(run, found);
   const nlohmann::ordered_json calibration = CalibrationJson(run, found, warnings);
   const std::string json = JsonText(calibration);
-  Write(run, json, RenderReportPage(ReportData(run, found, calibration, images)));
+  Write(run, json, RenderCalibrationPage(ReportData(run, found, calibration, images)));
   progress.Clear();
   Print(run, found, warnings, json, console);
   return run.result.calibration.status == CalibrationStatus::kConverged ? kExitSuccess : kExitNoResult;

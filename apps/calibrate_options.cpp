@@ -2,16 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <stdexcept>
-#include <thread>
 
 #include "apps/calibrate_command.h"
+#include "apps/option_checks.h"
 
 namespace legible {
 namespace {
 
-constexpr int kMostThreads = 1024;
 constexpr char kDescription[] =
     "Calibrate a hexapod and its camera from images of the legs and joint readings";
 constexpr char kFooter[] = R"(A session is a folder with
@@ -39,20 +37,6 @@ Examples:
   legible calibrate datasets/hexapod
   legible calibrate my-session --out result --known radius_m=2e-5 --hold principal-point
   legible calibrate my-session --format json | jq .held_out.rms_px)";
-
-// That fits into any of our types.
-bool IsWholeNumber(const std::string& text) {
-  return !text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == std::string::npos;
-}
-
-CLI::ValidationError NoneOf(const std::string& option, const std::string& value,
-                            const std::vector<std::string>& names) {
-  return CLI::ValidationError(option, fmt::format("\"{}\" is none of {}", value, fmt::join(names, ", ")));
-}
-
-void DemandOneOf(const std::string& option, const std::string& value, const std::vector<std::string>& names) {
-  if (std::find(names.begin(), names.end(), value) == names.end()) throw NoneOf(option, value, names);
-}
 
 void AddOutputOptions(CLI::App& command, CalibrateSettings& settings) {
   command.add_option("--out", settings.out, "Folder for the results")
@@ -149,16 +133,9 @@ void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
       .add_option(
           "--seed", settings.seed,
           "Draw at random, from this seed, which images are\nheld out together; without it nothing is random")
-      ->check([](const std::string& text) {
-        return IsWholeNumber(text) ? std::string() : "give a whole number of at most 9 digits";
-      })
+      ->check(WholeNumberFrom(0))
       ->type_name("N");
-  settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command
-      .add_option("--threads", settings.threads,
-                  "How many threads work at a time;\nwithout it one a processor")
-      ->check(CLI::Range(1, kMostThreads).description(""))
-      ->type_name("N");
+  AddThreadsOption(command, settings.threads);
 }
 
 }  // namespace

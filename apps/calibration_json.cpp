@@ -209,8 +209,4 @@ ordered_json NominalJson(const Session& session) {
   return {{"camera", CameraJson(session.camera, ParametersOf(session.camera))}, {"legs", legs}};
 }
 
-std::string JsonText(const ordered_json& document) {
-  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace legible

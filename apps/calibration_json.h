@@ -8,14 +8,12 @@
 
 namespace legible {
 
-// The document. Numbers that are not known are NaN, which become null in its text (JsonText).
+// The document. Numbers that are not known are NaN, which become null in its text (JsonText of
+// apps/json_text.h).
 nlohmann::ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& found,
                                        const std::vector<std::string>& warnings);
 
 // {camera, legs} of the drawing and the first guess of the camera, in the form of the document above.
 nlohmann::ordered_json NominalJson(const Session& session);
-
-// Indented, with a line end; bytes that are not UTF-8 are replaced.
-std::string JsonText(const nlohmann::ordered_json& document);
 
 }  // namespace legible

@@ -8,7 +8,7 @@
 
 namespace legible {
 
-// What RenderReportPage takes; `calibration` is the document of CalibrationJson, `images` of
+// What RenderCalibrationPage takes; `calibration` is the document of CalibrationJson, `images` of
 // ReportImages.
 nlohmann::json ReportData(const CalibrationRun& run, const FoundParameters& found,
                           const nlohmann::ordered_json& calibration, const nlohmann::json& images);

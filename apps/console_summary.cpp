@@ -140,10 +140,4 @@ std::string FailureText(const CalibrationRun& run) {
          (is_open ? OpenSentences(run.result.calibration.observability.unobservable) : "");
 }
 
-std::string WarningsText(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (const std::string& sentence : warnings) text += fmt::format("legible: warning: {}\n", sentence);
-  return text;
-}
-
 }  // namespace legible

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "apps/calibration_run.h"
 #include "apps/found_parameters.h"
@@ -17,8 +16,5 @@ std::string FilesText(const CalibrationRun& run);
 
 // Why there is no model, and what is open, a line each; empty where there is one.
 std::string FailureText(const CalibrationRun& run);
-
-// A line for each warning.
-std::string WarningsText(const std::vector<std::string>& warnings);
 
 }  // namespace legible

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/accuracy_command.h"
 #include "apps/calibrate_command.h"
 #include "datasets/input_error.h"
 
@@ -10,7 +11,8 @@ namespace legible {
 namespace {
 
 constexpr char kDescription[] =
-    "Calibrates parallel robots by the edges of their legs, seen by one fixed camera.";
+    "Calibrates parallel robots by the edges of their legs, seen by one fixed camera, and says how accurate "
+    "they are.";
 constexpr char kFooter[] =
     R"(Exit codes: 0 success; 1 no usable result, or nowhere to print it; 2 bad usage or bad input.
 `legible COMMAND --help` explains a command.)";
@@ -42,6 +44,8 @@ int ReportUsageError(const CLI::App& app, const CLI::ParseError& error, std::ost
 int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console& console) {
   CalibrateSettings calibrate;
   const CLI::App* calibrate_command = AddCalibrateCommand(app, calibrate);
+  AccuracySettings accuracy;
+  const CLI::App* accuracy_command = AddAccuracyCommand(app, accuracy);
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     app.parse(std::move(arguments));
@@ -50,7 +54,8 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   } catch (const CLI::ParseError& error) {
     return ReportUsageError(app, error, console.err);
   }
-  return calibrate_command->parsed() ? RunCalibrate(calibrate, console) : kExitBadInput;
+  if (calibrate_command->parsed()) return RunCalibrate(calibrate, console);
+  return accuracy_command->parsed() ? RunAccuracy(accuracy, console) : kExitBadInput;
 }
 
 }  // namespace

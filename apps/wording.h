@@ -1,15 +1,23 @@
-// How counts are put into sentences.
+// How counts and warnings are put into words.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 namespace legible {
 
 // "1 image", "2 images".
 inline std::string Plural(int count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+// A line for each warning.
+inline std::string WarningsText(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& sentence : warnings) text += fmt::format("legible: warning: {}\n", sentence);
+  return text;
 }
 
 }  // namespace legible

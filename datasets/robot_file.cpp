@@ -3,29 +3,11 @@
 #include <fmt/format.h>
 
 #include "datasets/atomic_file.h"
+#include "datasets/leg_yaml.h"
 #include "datasets/yaml_value.h"
 
 namespace legible {
 namespace {
-
-constexpr double kFarthestJoint_m = 30;  // from its frame's origin: beyond any hexapod; a small one's in mm
-
-Eigen::Vector3d JointFromYaml(const YamlValue& section) {
-  Eigen::Vector3d joint = section.Vector3();
-  if (joint.norm() > kFarthestJoint_m)
-    section.Fail(fmt::format("is {:.4g} m from the origin of its frame", joint.norm()),
-                 "give lengths in metres, not in millimetres");
-  return joint;
-}
-
-std::array<double, 2> RangeFromYaml(const YamlValue& section) {
-  const std::vector<double> range = section.Numbers(2);
-  if (range[0] >= range[1]) {
-    section.Fail(fmt::format("is [{}, {}], reversed or empty", range[0], range[1]),
-                 "give [shortest, longest]");
-  }
-  return {range[0], range[1]};
-}
 
 Leg LegFromYaml(const YamlValue& section) {
   section.AllowKeys({"base_joint_m", "platform_joint_m", "radius_m", "joint_offset_m", "joint_range_m"});
@@ -34,14 +16,8 @@ Leg LegFromYaml(const YamlValue& section) {
   leg.platform_joint_m = JointFromYaml(section.Get("platform_joint_m"));
   leg.radius_m = section.Get("radius_m").PositiveNumber();
   if (const auto offset = section.Find("joint_offset_m")) leg.joint_offset_m = offset->Number();
-  leg.joint_range_m = RangeFromYaml(section.Get("joint_range_m"));
-  const double shortest_m = leg.joint_range_m[0] + leg.joint_offset_m;
-  if (shortest_m <= leg.radius_m) {
-    section.Fail(
-        fmt::format("has a shortest length (joint_range_m[1] + joint_offset_m) of {} m and a radius of {} m",
-                    shortest_m, leg.radius_m),
-        "give lengths in metres, with the leg longer than it is thick");
-  }
+  leg.joint_range_m = JointRangeFromYaml(section.Get("joint_range_m"));
+  DemandLongerThanThick(section, leg.joint_range_m[0] + leg.joint_offset_m, leg.radius_m);
   return leg;
 }
 

@@ -4,13 +4,14 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "accuracy/maximal_errors.h"
-#include "datasets/synthetic_session.h"
 #include "tests/testing/derivatives.h"
+#include "tests/testing/edge_shift.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
 
@@ -110,13 +111,51 @@ TEST(Geometry, NamesAreThoseOfModelFilesAndPickTheirCovariance) {
 // --- Vision.
 // -----------------------------------------------------------------------------------------------------
 
-TEST(VisionSource, LeastSquaresOnShiftedEdgesFindsTheDisplacement) {
-  const SyntheticOptions scene;
-  const auto source = VisionSource(scene.drawing, scene.camera, scene.camera_from_base, scene.drawing.home,
-                                   {0, 1, 2, 3, 4, 5}, 0.5);
-  ASSERT_TRUE(source);
-  EXPECT_EQ(source->sensitivity.cols(), 24);
-  EXPECT_EQ(source->covariance(3, 3), 0.25);
+// The pose whose edges fit edges that are shifted by `shifts_px` best, by Gauss-Newton with numeric
+// derivatives: nothing of the interaction matrix or its pseudo-inverse is in here.
+Vector6d FitToShiftedEdges(const View& view, const Rigid3& pose, const std::vector<int>& legs,
+                           const Eigen::VectorXd& shifts_px) {
+  const std::vector<EdgeEnd> ends = EdgeEnds(legs);
+  std::vector<Eigen::Vector2d> points_px;
+  for (const EdgeEnd& end : ends) points_px.push_back(EndPoint(view, end, pose));
+  const auto residuals = [&](const Vector6d& displacement) {
+    Eigen::Matrix<double, 24, 1> values = Eigen::Matrix<double, 24, 1>::Zero();
+    for (size_t i = 0; i < ends.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      values[row] = ShiftPast(view, EdgeNormal(view, ends[i], Displaced(pose, displacement)), points_px[i]) -
+                    shifts_px[row];
+    }
+    return values;
+  };
+  Vector6d displacement = Vector6d::Zero();
+  for (int step = 0; step < 4; ++step)
+    displacement -=
+        NumericJacobian(residuals, displacement, 1e-5).colPivHouseholderQr().solve(residuals(displacement));
+  return displacement;
+}
+
+TEST(VisionSource, IsTheDerivativeOfThePoseFittedToShiftedEdgesByDifferences) {
+  const View view;
+  const Rigid3 pose =
+      Displaced(view.robot.home, (Vector6d() << 0.01, -0.02, 0.01, 0.05, 0.03, -0.04).finished());
+  for (const std::vector<int>& legs : {std::vector<int>{0, 1, 3, 4}, std::vector<int>{0, 1, 2, 3, 4, 5}}) {
+    const auto source = VisionSource(view.robot, view.camera, view.camera_from_base, pose, legs, 0.5);
+    ASSERT_TRUE(source);
+    const Eigen::Index count = source->sensitivity.cols();
+    ASSERT_EQ(count, kShiftsPerLeg * static_cast<Eigen::Index>(legs.size()));
+    EXPECT_EQ(source->covariance(3, 3), 0.25);
+    Eigen::MatrixXd numeric(6, count);
+    constexpr double kStep_px = 2e-3;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::VectorXd shift = kStep_px * Eigen::VectorXd::Unit(count, i);
+      numeric.col(i) =
+          (8 * (FitToShiftedEdges(view, pose, legs, shift) - FitToShiftedEdges(view, pose, legs, -shift)) -
+           (FitToShiftedEdges(view, pose, legs, 2 * shift) -
+            FitToShiftedEdges(view, pose, legs, -2 * shift))) /
+          (12 * kStep_px);
+    }
+    EXPECT_TRUE(AreNear(source->sensitivity, numeric, 1e-6 * numeric.norm()));
+  }
 }
 
 TEST(VisionSource, MoreLegsLeaveSmallerErrorsAndTwoLegsNone) {

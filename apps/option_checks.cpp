@@ -1,0 +1,39 @@
+#include "apps/option_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace legible {
+
+CLI::ValidationError NoneOf(const std::string& option, const std::string& value,
+                            const std::vector<std::string>& names) {
+  return CLI::ValidationError(option, fmt::format("\"{}\" is none of {}", value, fmt::join(names, ", ")));
+}
+
+void DemandOneOf(const std::string& option, const std::string& value, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), value) == names.end()) throw NoneOf(option, value, names);
+}
+
+bool IsWholeNumber(const std::string& text) {
+  return !text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::function<std::string(const std::string&)> WholeNumberFrom(int least) {
+  return [least](const std::string& text) {
+    if (IsWholeNumber(text) && std::stoi(text) >= least) return std::string();
+    return least > 0 ? fmt::format("give a whole number from {}, of at most 9 digits", least)
+                     : std::string("give a whole number of at most 9 digits");
+  };
+}
+
+void AddThreadsOption(CLI::App& command, int& threads) {
+  threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command.add_option("--threads", threads, "How many threads work at a time;\nwithout it one a processor")
+      ->check(CLI::Range(1, kMostThreads).description(""))
+      ->type_name("N");
+}
+
+}  // namespace legible
