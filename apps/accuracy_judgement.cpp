@@ -1,6 +1,7 @@
 #include "apps/accuracy_judgement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

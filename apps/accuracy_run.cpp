@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "apps/accuracy_input.h"
 #include "apps/wording.h"
@@ -172,7 +173,7 @@ std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting&
                                        ProgressLine& progress) {
   const Box box = BoxOf(run, setting);
   const auto dimension = static_cast<int>(box.FreeCoordinates().size());
-  const Sampling sampling{SamplingRule::kSobol, kReplicates * 16 * kComparedSamples,
+  const Sampling sampling{SamplingRule::kSobol, kReplicates * 128 * kComparedSamples,
                           run.settings.sampling.seed};
   const Eigen::MatrixXd points = InBox(box, UnitCubePoints(sampling, dimension, 0).points);
   const auto evaluate = ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, setting, LengthOf(run)));
@@ -196,8 +197,36 @@ std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting&
 // --- Maps.
 // ------------------------------------------------------------------------------------------------------------
 
-// Over the first two coordinates that the box leaves free, the others as in the first pose or the middle of
-// the box.
+// All points of two coordinates' values, those of the first running fastest, the other coordinates held.
+Eigen::MatrixXd MapPoints(const ErrorMap& map) {
+  Eigen::MatrixXd points = map.held.replicate(1, map.first.size() * map.second.size());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    points(map.axes[0], i) = map.first[i % map.first.size()];
+    points(map.axes[1], i) = map.second[i / map.first.size()];
+  }
+  return points;
+}
+
+// Narrows both ranges to where the joint ranges allow a pose, and a little more.
+void NarrowToReach(const BatchEvaluator& evaluate, ErrorMap& map) {
+  constexpr double kMargin = 0.08;
+  const Eigen::MatrixXd points = MapPoints(map);
+  const std::vector<PointState> states = evaluate(points).states;
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (states[static_cast<size_t>(i)] == PointState::kOutside) continue;
+    const Eigen::Array2d place(points(map.axes[0], i), points(map.axes[1], i));
+    low = low.min(place);
+    high = high.max(place);
+  }
+  if (!(low < high).all()) return;
+  const Eigen::Array2d margin = kMargin * (high - low);
+  map.first = Eigen::VectorXd::LinSpaced(kMapPoints, low[0] - margin[0], high[0] + margin[0]);
+  map.second = Eigen::VectorXd::LinSpaced(kMapPoints, low[1] - margin[1], high[1] + margin[1]);
+}
+
+// Over the first two coordinates that the box leaves free, the others as in the first pose or, where that is
+// outside, at the end of the box next to it.
 std::optional<ErrorMap> MapOf(const AccuracyRun& run, const BoxSetting& setting) {
   const Box box = BoxOf(run, setting);
   const std::vector<Eigen::Index> free = box.FreeCoordinates();
@@ -206,18 +235,16 @@ std::optional<ErrorMap> MapOf(const AccuracyRun& run, const BoxSetting& setting)
   map.axes = {static_cast<int>(free[0]), static_cast<int>(free[1])};
   map.first = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[0]], box.high[free[0]]);
   map.second = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[1]], box.high[free[1]]);
-  const Eigen::VectorXd first_pose = run.poses.front().coordinates;
-  map.held = first_pose.cwiseMax(box.low).cwiseMin(box.high);
-  Eigen::MatrixXd points = map.held.replicate(1, map.first.size() * map.second.size());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    points(free[0], i) = map.first[i % map.first.size()];
-    points(free[1], i) = map.second[i / map.first.size()];
-  }
+  map.held = run.poses.front().coordinates.cwiseMax(box.low).cwiseMin(box.high);
   WorkspaceErrorOptions options = EvaluatorOptions(run, setting, LengthOf(run));
   options.in_aspect_of_home = options.within_joint_ranges = false;
-  map.values = ErrorEvaluator(run.robot.mechanism, options)(points);
+  const BatchEvaluator anywhere = ErrorEvaluator(run.robot.mechanism, options);
   options.within_joint_ranges = true;
-  for (const PointState state : ErrorEvaluator(run.robot.mechanism, options)(points).states)
+  const BatchEvaluator in_reach = ErrorEvaluator(run.robot.mechanism, options);
+  if (setting.is_reachable) NarrowToReach(in_reach, map);
+  const Eigen::MatrixXd points = MapPoints(map);
+  map.values = anywhere(points);
+  for (const PointState state : in_reach(points).states)
     map.is_within_joint_ranges.push_back(state != PointState::kOutside);
   return map;
 }

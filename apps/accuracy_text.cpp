@@ -196,8 +196,7 @@ std::string WorkspaceTable(const ordered_json& document) {
       return std::string("-");
     };
     const std::string unit = one.at("unit");
-    const std::string label =
-        one.at("label").get<std::string>().substr(0, one.at("label").get<std::string>().find(';'));
+    const std::string label = one.at("label");
     rows.push_back({label + (unit.empty() ? "" : ", " + unit), PlusMinus(one.at("mean")), quantile(0.5),
                     quantile(0.95), Number(one.at("largest_seen")),
                     fmt::format("{:.5g}", std::sqrt(one.at("variance").at("value").get<double>()))});

@@ -44,10 +44,7 @@ const std::vector<RowText>& RowTexts() {
       {"rz", "rotation error about z", 1},
       {"position", "largest position error", 0},
       {"rotation", "largest rotation error", 1},
-      {"inverse_condition_two_normalized",
-       "1 / condition number, 2-norm, normalised; its mean is the global "
-       "conditioning index",
-       2}};
+      {"inverse_condition_two_normalized", "1 / condition number (2-norm, normalised)", 2}};
   return texts;
 }
 
