@@ -72,24 +72,24 @@ const char* ToString(PoseStatus status) {
   throw std::invalid_argument("ToString: not a PoseStatus");
 }
 
-PlatformJacobian Invert(const FullInverseJacobian& given) {
-  Check(given);
-  const Balanced balanced = Balance(given);
+PlatformJacobian Invert(const FullInverseJacobian& inverse_jacobian) {
+  Check(inverse_jacobian);
+  const Balanced balanced = Balance(inverse_jacobian);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(balanced.matrix, Eigen::ComputeFullV);
   const Eigen::VectorXd& values = svd.singularValues();  // descending
   PlatformJacobian result;
-  result.linear = given.linear;
+  result.linear = inverse_jacobian.linear;
   result.balanced_ratio = values[0] > 0 ? values[values.size() - 1] / values[0] : 0;
   result.status = StatusOf(result.balanced_ratio);
   if (result.status != PoseStatus::kSingular) {
     const Eigen::MatrixXd inverse = balanced.matrix.inverse();
-    result.matrix =
-        (balanced.columns.asDiagonal() * inverse * balanced.rows.asDiagonal()).leftCols(given.actuated);
+    result.matrix = (balanced.columns.asDiagonal() * inverse * balanced.rows.asDiagonal())
+                        .leftCols(inverse_jacobian.actuated);
     return result;
   }
   for (Eigen::Index i = 0; i < values.size(); ++i)
     if (values[i] <= kSingularRatio * values[0])
-      result.free_motions.push_back(UnitMotion(svd.matrixV().col(i), balanced, given.linear));
+      result.free_motions.push_back(UnitMotion(svd.matrixV().col(i), balanced, inverse_jacobian.linear));
   return result;
 }
 

@@ -33,7 +33,7 @@ int NodesPerAxis(size_t points, int dimension) {
 
 // All combinations of one axis' nodes.
 WeightedPoints Product(const Eigen::VectorXd& nodes, const Eigen::VectorXd& weights, int dimension) {
-  const auto count = static_cast<Eigen::Index>(std::pow(nodes.size(), dimension) + 0.5);
+  const auto count = static_cast<Eigen::Index>(std::lround(std::pow(nodes.size(), dimension)));
   WeightedPoints product{Eigen::MatrixXd(dimension, count), Eigen::VectorXd::Ones(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     Eigen::Index rest = i;

@@ -98,8 +98,8 @@ Enclosure Combine(const std::vector<double>& values, Certainty certainty) {
 // `of(replicate)` gives the statistic.
 template <typename F>
 Enclosure Over(const std::vector<Replicate>& replicates, Certainty certainty, const F& of) {
-  std::vector<double> values;
-  for (const Replicate& replicate : replicates) values.push_back(of(replicate));
+  std::vector<double> values(replicates.size());
+  std::transform(replicates.begin(), replicates.end(), values.begin(), of);
   return Combine(values, certainty);
 }
 

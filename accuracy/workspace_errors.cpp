@@ -78,7 +78,7 @@ BatchValues EvaluateEach(const Mechanism& mechanism, const std::vector<Rigid3>& 
 // --- Where the platform's origin can be.
 // -----------------------------------------------------------------------------
 
-constexpr int kSubdivisions = 6;  // cells of 1/64 of the first
+constexpr int kSubdivisions = 8;  // cells of 1/256 of the first
 
 // The places that one leg allows, the platform's orientation kept: between two spheres.
 struct LegShell {
