@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kGolden = 0.6180339887498949;
-constexpr int kGoldenSteps = 80;                 // narrow the bracket by 0.618^80 = 2e-17
+constexpr int kGoldenSteps = 50;                 // narrow the bracket by 0.618^50 = 4e-11
 constexpr double kBracket = 13.815510557964274;  // ln(10^6), to either side of the Frobenius length
 
 double RowSumNorm(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().rowwise().sum().maxCoeff(); }
@@ -49,6 +49,15 @@ double NaturalFrobeniusLength(const FullInverseJacobian& inverse_jacobian) {
   return std::pow(b * c / (a * d), 0.25);
 }
 
+// By themselves, for the search: of square matrices of full rank.
+double TwoNormCondition(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
+  return values[0] / values[values.size() - 1];
+}
+double InfinityNormCondition(const Eigen::MatrixXd& matrix) {
+  return RowSumNorm(matrix) * RowSumNorm(matrix.inverse());
+}
+
 }  // namespace
 
 ConditionNumbers ConditionNumbersOf(const Eigen::MatrixXd& matrix) {
@@ -68,13 +77,13 @@ ConditionNumbers ConditionNumbersOf(const Eigen::MatrixXd& matrix) {
 
 CharacteristicLengths NaturalLengths(const FullInverseJacobian& inverse_jacobian) {
   const double frobenius_m = NaturalFrobeniusLength(inverse_jacobian);
-  const auto least = [&](double ConditionNumbers::*norm) {
+  const auto least = [&](double (*condition)(const Eigen::MatrixXd&)) {
     const auto at = [&](double log_length) {
-      return ConditionNumbersOf(WithAngularColumnsOver(inverse_jacobian, std::exp(log_length))).*norm;
+      return condition(WithAngularColumnsOver(inverse_jacobian, std::exp(log_length)));
     };
     return std::exp(GoldenSection(at, std::log(frobenius_m) - kBracket, std::log(frobenius_m) + kBracket));
   };
-  return {least(&ConditionNumbers::two), frobenius_m, least(&ConditionNumbers::infinity)};
+  return {least(TwoNormCondition), frobenius_m, least(InfinityNormCondition)};
 }
 
 ConditionNumbers NormalizedConditionNumbers(const FullInverseJacobian& inverse_jacobian,

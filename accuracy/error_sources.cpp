@@ -1,10 +1,11 @@
 #include "accuracy/error_sources.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 
@@ -33,7 +34,7 @@ double ChiSquaredCdfOf3(double x) {
 // Average of f(x^2, y^2, z^2) over the unit sphere, by Gauss' rule over an octant.
 template <typename F>
 double OverSphere(const F& f) {
-  static const GaussLegendre rule = GaussLegendrePanels(4);
+  static const GaussLegendre rule = GaussLegendrePanels(2);
   double sum = 0;
   for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
     const double z2 = rule.nodes[i] * rule.nodes[i];
@@ -198,11 +199,11 @@ double RadiusHolding(double part, const Eigen::Matrix3d& covariance) {
           .eigenvalues()
           .cwiseMax(0);
   if (!(variances[2] > 0)) return 0;
-  double low = 0, high = 20 * std::sqrt(variances.sum());
-  for (int step = 0; step < 60; ++step) {
-    const double middle = (low + high) / 2;
-    (PartWithin(middle, variances) < part ? low : high) = middle;
-  }
+  const auto excess = [&](double radius) { return PartWithin(radius, variances) - part; };
+  const double farthest = 20 * std::sqrt(variances.sum());
+  std::uintmax_t steps = 60;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      excess, 0.0, farthest, boost::math::tools::eps_tolerance<double>(40), steps);
   return (low + high) / 2;
 }
 

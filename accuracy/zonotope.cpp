@@ -49,8 +49,8 @@ Eigen::Matrix3Xd SignVertices(const Eigen::Matrix3Xd& generators) {
 // Every facet of a zonotope is spanned by two generators at least and its edges are parallel to one: the
 // vertex at one end of an edge is the farthest across the facet, then within the facet across the edge, then
 // along the edge. The centre is symmetric, so half the facets do.
-Eigen::Vector3d FarthestPoint(const Eigen::Matrix3Xd& given) {
-  const Eigen::Matrix3Xd generators = WithoutZeros(given);
+Eigen::Vector3d FarthestPoint(const Eigen::Matrix3Xd& all_generators) {
+  const Eigen::Matrix3Xd generators = WithoutZeros(all_generators);
   const Eigen::Matrix3Xd unit = generators.colwise().normalized();
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
   const auto take = [&](const Eigen::Vector3d& vertex) {

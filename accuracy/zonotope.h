@@ -12,6 +12,6 @@ Eigen::Matrix3Xd SignVertices(const Eigen::Matrix3Xd& generators);
 
 // The point of the zonotope that lies farthest from its centre: exact for any number of generators, from its
 // O(m^2) vertices. Parallel, coplanar and zero generators are allowed.
-Eigen::Vector3d FarthestPoint(const Eigen::Matrix3Xd& generators);
+Eigen::Vector3d FarthestPoint(const Eigen::Matrix3Xd& all_generators);
 
 }  // namespace legible

@@ -12,6 +12,7 @@ namespace legible {
 namespace {
 
 constexpr double kLinearEnough = 0.05;  // relative difference from the non-linear answer
+constexpr size_t kMostPosesNamed = 5;   // one by one
 
 std::string Percent(double part) { return fmt::format("{:.{}f} %", 100 * part, part < 0.1 ? 1 : 0); }
 
@@ -41,22 +42,31 @@ std::string Headline(const IndexComparison& comparison, size_t trusted) {
       trusted, comparison.indices.size(), Percent(kTrustedMisranked), Percent(kClearDifference));
 }
 
+// What there is to know of one pose; empty: nothing.
+std::string WarningOf(const JudgedPose& pose) {
+  if (!pose.message.empty()) return pose.message;
+  if (!pose.accuracy || !pose.accuracy->vertex_check) return "";
+  const VertexCheck& check = *pose.accuracy->vertex_check;
+  if (!check.converged) return "forward kinematics does not converge at some corner of the joint errors";
+  return check.relative > kLinearEnough
+             ? fmt::format("errors in first order are off by {} of the true ones at the corners",
+                           Percent(check.relative))
+             : "";
+}
+
 }  // namespace
 
 std::vector<std::string> AccuracyWarnings(const AccuracyRun& run) {
   std::vector<std::string> warnings;
+  size_t concerned = 0;
   for (const JudgedPose& pose : run.poses) {
-    if (!pose.message.empty()) warnings.push_back(fmt::format("{}: {}", pose.name, pose.message));
-    if (!pose.accuracy || !pose.accuracy->vertex_check) continue;
-    const VertexCheck& check = *pose.accuracy->vertex_check;
-    if (!check.converged)
-      warnings.push_back(pose.name +
-                         ": forward kinematics does not converge at some corner of the joint errors");
-    else if (check.relative > kLinearEnough)
-      warnings.push_back(
-          fmt::format("{}: errors in first order are off by {} of the true ones at the corners", pose.name,
-                      Percent(check.relative)));
+    const std::string text = WarningOf(pose);
+    if (!text.empty() && ++concerned <= kMostPosesNamed)
+      warnings.push_back(fmt::format("{}: {}", pose.name, text));
   }
+  if (concerned > kMostPosesNamed)
+    warnings.push_back(fmt::format("{} more have a status or an error in first order to look at",
+                                   Plural(static_cast<int>(concerned - kMostPosesNamed), "pose")));
   if (run.workspace)
     for (const std::string& warning : WorkspaceWarnings(*run.workspace)) warnings.push_back(warning);
   if (const std::string text = JointErrorText(run); !text.empty()) warnings.push_back(text);

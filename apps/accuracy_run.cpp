@@ -1,8 +1,11 @@
 #include "apps/accuracy_run.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "apps/accuracy_input.h"
@@ -52,6 +55,16 @@ void Judge(const AccuracyRun& run, JudgedPose& pose) {
   if (jacobian.status == PoseStatus::kSingular) pose.message = SingularText(jacobian);
   if (jacobian.status == PoseStatus::kNearSingular)
     pose.message = "so close to a singularity that errors in first order mean little";
+}
+
+void JudgePoses(AccuracyRun& run, ProgressLine& progress) {
+  std::atomic<int> done = 0;
+  tbb::task_arena(run.settings.threads).execute([&] {
+    tbb::parallel_for(size_t{0}, run.poses.size(), [&](size_t i) {
+      Judge(run, run.poses[i]);
+      progress.Show(StageText("judging poses", ++done, static_cast<int>(run.poses.size())));
+    });
+  });
 }
 
 void DemandSomeReachable(const AccuracyRun& run) {
@@ -272,10 +285,7 @@ AccuracyRun JudgeAccuracy(const AccuracySettings& settings, ProgressLine& progre
   run.options = PoseOptionsOf(settings, run.robot);
   run.poses = PosesToJudge(settings, run.robot);
   DemandSomeReachable(run);
-  for (size_t i = 0; i < run.poses.size(); ++i) {
-    progress.Show(StageText("judging pose", static_cast<int>(i + 1), static_cast<int>(run.poses.size())));
-    Judge(run, run.poses[i]);
-  }
+  JudgePoses(run, progress);
   JudgeBox(run, progress);
   return run;
 }
