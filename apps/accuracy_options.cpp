@@ -148,8 +148,8 @@ void AddWorkspaceOptions(CLI::App& command, AccuracySettings& settings) {
 
 void AddUnit(CLI::App& command, const std::string& name, const std::vector<OutputUnit>& units,
              std::optional<std::string>& unit, const std::string& description) {
-  std::vector<std::string> names;
-  for (const OutputUnit& one : units) names.push_back(one.name);
+  std::vector<std::string> names(units.size());
+  std::transform(units.begin(), units.end(), names.begin(), [](const OutputUnit& one) { return one.name; });
   command
       .add_option_function<std::string>(
           name,
