@@ -23,15 +23,20 @@ std::vector<IndexDefinition> Definitions(bool has_three_point) {
       {"condition.two", false, [](const Indices& i) { return i.plain.two; }},
       {"condition.frobenius", false, [](const Indices& i) { return i.plain.frobenius; }},
       {"condition.infinity", false, [](const Indices& i) { return i.plain.infinity; }},
+      {"condition.frobenius_of_gram", false, [](const Indices& i) { return i.plain.frobenius_of_gram; }},
       {"condition.two_normalized", false, [](const Indices& i) { return i.normalized.two; }},
       {"condition.frobenius_normalized", false, [](const Indices& i) { return i.normalized.frobenius; }},
       {"condition.infinity_normalized", false, [](const Indices& i) { return i.normalized.infinity; }},
   };
+  all.push_back({"condition.frobenius_of_gram_normalized", false,
+                 [](const Indices& i) { return i.normalized.frobenius_of_gram; }});
   if (has_three_point) {
     all.push_back(
         {"condition.two_three_point", false, [](const Indices& i) { return i.three_point->two.largest; }});
     all.push_back({"condition.frobenius_three_point", false,
                    [](const Indices& i) { return i.three_point->frobenius_of_gram.largest; }});
+    all.push_back({"condition.frobenius_three_point_plain", false,
+                   [](const Indices& i) { return i.three_point->frobenius.largest; }});
   }
   return all;
 }

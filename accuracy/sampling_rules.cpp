@@ -67,7 +67,7 @@ WeightedPoints Independent(size_t points, int dimension, std::mt19937_64 generat
 // A power of two of Sobol's points, the origin first, their bits flipped by random digits of each axis: the
 // net keeps its even spread, and each point is uniform.
 WeightedPoints ShiftedSobol(size_t points, int dimension, std::mt19937_64 generator) {
-  const auto count = static_cast<Eigen::Index>(std::bit_floor(points));
+  const auto count = static_cast<Eigen::Index>(std::bit_ceil(points));
   std::vector<std::uint64_t> flips(static_cast<size_t>(dimension));
   for (std::uint64_t& flip : flips) flip = generator();
   boost::random::sobol_engine<std::uint64_t, 64> sobol(static_cast<size_t>(dimension));

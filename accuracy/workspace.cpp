@@ -5,6 +5,9 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <string>
+
+#include "accuracy/gauss_legendre.h"
 
 namespace legible {
 namespace {
@@ -12,18 +15,20 @@ namespace {
 constexpr double kStudent95Of15 = 2.1314495455593;  // two-sided, kReplicates - 1 degrees of freedom
 constexpr Eigen::Index kBatch = 1 << 14;            // points that are evaluated at a time
 static_assert(kReplicates == 16);
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// One quantity over the inside of one replicate.
-struct QuantityOfReplicate {
-  double mean = 0, variance = 0;
-  std::vector<double> quantiles;
-  double smallest = 0, largest = 0;
+// The points of one replicate that count.
+struct Replicate {
+  size_t points = 0, inside = 0, near_singular = 0, singular = 0;
+  double allowed = 0;      // weight of all in the set
+  Eigen::MatrixXd values;  // a row a quantity, a column a point inside
+  Eigen::VectorXd weights;
 };
 
-struct Replicate {
-  size_t points = 0, inside = 0, singular = 0;
-  double allowed = 0;  // weight of inside and singular points
-  std::vector<QuantityOfReplicate> quantities;
+// One quantity over points, whose weights add up to 1.
+struct Summary {
+  double mean = 0, variance = 0;
+  std::vector<double> quantiles;
 };
 
 // The values of a quantity at which the weights of the smaller ones reach each part.
@@ -33,92 +38,128 @@ std::vector<double> WeightedQuantiles(const Eigen::VectorXd& values, const Eigen
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
-  std::vector<double> quantiles;
-  for (const double part : parts) {
+  std::vector<double> quantiles(parts.size());
+  for (size_t k = 0; k < parts.size(); ++k) {
     double reached = 0;
     size_t i = 0;
-    while (i + 1 < order.size() && reached + weights[order[i]] < part) reached += weights[order[i++]];
-    quantiles.push_back(values[order[i]]);
+    while (i + 1 < order.size() && reached + weights[order[i]] < parts[k]) reached += weights[order[i++]];
+    quantiles[k] = values[order[i]];
   }
   return quantiles;
 }
 
-// `weights` add up to 1.
-QuantityOfReplicate Summarise(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-                              const std::vector<double>& parts) {
-  QuantityOfReplicate quantity;
-  quantity.mean = weights.dot(values);
-  quantity.variance = weights.dot((values.array() - quantity.mean).square().matrix());
-  quantity.quantiles = WeightedQuantiles(values, weights, parts);
-  quantity.smallest = values.minCoeff();
-  quantity.largest = values.maxCoeff();
-  return quantity;
+Summary Summarise(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+                  const std::vector<double>& parts) {
+  Summary summary;
+  const auto count = static_cast<double>(values.size());
+  summary.mean = weights.dot(values);
+  summary.variance = weights.dot((values.array() - summary.mean).square().matrix()) * count / (count - 1);
+  summary.quantiles = WeightedQuantiles(values, weights, parts);
+  return summary;
 }
 
-Replicate Evaluate(const Box& box, const WeightedPoints& unit, const std::vector<double>& parts,
-                   const BatchEvaluator& evaluate) {
+Replicate Evaluate(const Box& box, const WeightedPoints& unit, const BatchEvaluator& evaluate) {
   Replicate replicate;
   replicate.points = static_cast<size_t>(unit.weights.size());
-  std::vector<double> weights;
-  Eigen::MatrixXd inside;
+  replicate.weights.resize(unit.weights.size());
+  Eigen::Index next = 0;
   for (Eigen::Index first = 0; first < unit.weights.size(); first += kBatch) {
     const Eigen::Index count = std::min(kBatch, unit.weights.size() - first);
     const BatchValues batch = evaluate(InBox(box, unit.points.middleCols(first, count)));
-    if (inside.size() == 0) inside.resize(batch.values.rows(), unit.weights.size());
+    if (replicate.values.size() == 0) replicate.values.resize(batch.values.rows(), unit.weights.size());
     for (Eigen::Index i = 0; i < count; ++i) {
       const PointState state = batch.states[static_cast<size_t>(i)];
       if (state == PointState::kOutside) continue;
       replicate.allowed += unit.weights[first + i];
+      replicate.near_singular += state == PointState::kNearSingular;
       replicate.singular += state == PointState::kSingular;
       if (state == PointState::kSingular) continue;
-      inside.col(static_cast<Eigen::Index>(replicate.inside++)) = batch.values.col(i);
-      weights.push_back(unit.weights[first + i]);
+      replicate.weights[next] = unit.weights[first + i];
+      replicate.values.col(next++) = batch.values.col(i);
     }
   }
-  if (replicate.inside == 0) return replicate;
-  Eigen::VectorXd normalised =
-      Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  normalised /= normalised.sum();
-  for (Eigen::Index row = 0; row < inside.rows(); ++row)
-    replicate.quantities.push_back(
-        Summarise(inside.row(row).head(normalised.size()).transpose(), normalised, parts));
+  replicate.inside = static_cast<size_t>(next);
+  replicate.values.conservativeResize(Eigen::NoChange, next);
+  replicate.weights.conservativeResize(next);
   return replicate;
 }
 
-// Of one statistic over the replicates.
-Enclosure Combine(const std::vector<double>& values, Certainty certainty) {
-  if (certainty == Certainty::kRefinement) return {values.back(), std::abs(values.back() - values.front())};
-  const double count = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+// How a value of all points together, and the same of each replicate, enclose the truth.
+Enclosure Enclose(double together, const std::vector<double>& of_replicates, Certainty certainty) {
+  if (certainty == Certainty::kRefinement)
+    return {of_replicates.back(), std::abs(of_replicates.back() - of_replicates.front())};
+  const double count = static_cast<double>(of_replicates.size());
+  const double mean = std::accumulate(of_replicates.begin(), of_replicates.end(), 0.0) / count;
   double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, kStudent95Of15 * std::sqrt(squares / (count - 1) / count)};
+  for (const double value : of_replicates) squares += (value - mean) * (value - mean);
+  return {together, kStudent95Of15 * std::sqrt(squares / (count - 1) / count)};
 }
 
-// `of(replicate)` gives the statistic.
+// `of(summary)` gives the statistic.
 template <typename F>
-Enclosure Over(const std::vector<Replicate>& replicates, Certainty certainty, const F& of) {
-  std::vector<double> values(replicates.size());
-  std::transform(replicates.begin(), replicates.end(), values.begin(), of);
-  return Combine(values, certainty);
+Enclosure Over(const Summary& together, const std::vector<Summary>& of_replicates, Certainty certainty,
+               const F& of) {
+  std::vector<double> values(of_replicates.size());
+  std::transform(of_replicates.begin(), of_replicates.end(), values.begin(), of);
+  return Enclose(of(together), values, certainty);
 }
 
-QuantityStatistics CombineQuantity(const std::vector<Replicate>& replicates, size_t quantity,
-                                   Certainty certainty, const std::vector<double>& parts) {
-  const auto over = [&](const auto& member) {
-    return Over(replicates, certainty, [&](const Replicate& r) { return member(r.quantities[quantity]); });
-  };
+// The points of all replicates that make up the value: of Gauss' rule the finer ones only.
+struct Pool {
+  Eigen::Index first_replicate = 0, points = 0;
+};
+Pool PoolOf(const std::vector<Replicate>& replicates, Certainty certainty) {
+  Pool pool;
+  if (certainty == Certainty::kRefinement)
+    pool.first_replicate = static_cast<Eigen::Index>(replicates.size()) - 1;
+  for (auto i = static_cast<size_t>(pool.first_replicate); i < replicates.size(); ++i)
+    pool.points += static_cast<Eigen::Index>(replicates[i].inside);
+  return pool;
+}
+
+Summary SummariseTogether(const std::vector<Replicate>& replicates, Eigen::Index quantity, const Pool& pool,
+                          const std::vector<double>& parts) {
+  Eigen::VectorXd values(pool.points), weights(pool.points);
+  Eigen::Index next = 0;
+  for (auto i = static_cast<size_t>(pool.first_replicate); i < replicates.size(); ++i) {
+    const Eigen::Index count = replicates[i].weights.size();
+    values.segment(next, count) = replicates[i].values.row(quantity).transpose();
+    weights.segment(next, count) = replicates[i].weights;
+    next += count;
+  }
+  return Summarise(values, weights / weights.sum(), parts);
+}
+
+size_t LeastInside(const std::vector<Replicate>& replicates) {
+  return std::min_element(replicates.begin(), replicates.end(),
+                          [](const Replicate& a, const Replicate& b) { return a.inside < b.inside; })
+      ->inside;
+}
+
+QuantityStatistics StatisticsOf(const std::vector<Replicate>& replicates, Eigen::Index quantity,
+                                Certainty certainty, const std::vector<double>& parts) {
+  const Summary together = SummariseTogether(replicates, quantity, PoolOf(replicates, certainty), parts);
+  std::vector<Summary> each;
+  each.reserve(replicates.size());
   QuantityStatistics statistics;
-  statistics.mean = over([](const QuantityOfReplicate& q) { return q.mean; });
-  statistics.variance = over([](const QuantityOfReplicate& q) { return q.variance; });
-  for (size_t i = 0; i < parts.size(); ++i)
-    statistics.quantiles.push_back(
-        {parts[i], over([i](const QuantityOfReplicate& q) { return q.quantiles[i]; })});
   statistics.smallest_seen = std::numeric_limits<double>::infinity();
   statistics.largest_seen = -statistics.smallest_seen;
   for (const Replicate& replicate : replicates) {
-    statistics.smallest_seen = std::min(statistics.smallest_seen, replicate.quantities[quantity].smallest);
-    statistics.largest_seen = std::max(statistics.largest_seen, replicate.quantities[quantity].largest);
+    const Eigen::VectorXd values = replicate.values.row(quantity).transpose();
+    each.push_back(Summarise(values, replicate.weights / replicate.weights.sum(), parts));
+    statistics.smallest_seen = std::min(statistics.smallest_seen, values.minCoeff());
+    statistics.largest_seen = std::max(statistics.largest_seen, values.maxCoeff());
+  }
+  statistics.mean = Over(together, each, certainty, [](const Summary& s) { return s.mean; });
+  statistics.variance = Over(together, each, certainty, [](const Summary& s) { return s.variance; });
+  for (size_t i = 0; i < parts.size(); ++i) {
+    // Where few points lie beyond it a replicate's quantile is no estimate of it, and its scatter none of the
+    // error.
+    const double beyond = static_cast<double>(LeastInside(replicates)) * std::min(parts[i], 1 - parts[i]);
+    const bool is_told = beyond >= kLeastBeyondQuantile;
+    statistics.quantiles.push_back(
+        {parts[i], is_told ? Over(together, each, certainty, [i](const Summary& s) { return s.quantiles[i]; })
+                           : Enclosure{kUnknown, kUnknown}});
   }
   return statistics;
 }
@@ -139,8 +180,14 @@ void Box::Check() const {
         "Box: give every coordinate a range that is not reversed, and one that is not empty");
 }
 
-void Sampling::Check() const {
-  if (samples < kReplicates) throw std::invalid_argument("Sampling: at least 16 samples are needed");
+void Sampling::Check(int dimension) const {
+  if (samples < kReplicates) throw std::invalid_argument("at least 16 samples are needed");
+  if (samples > kMostSamples) throw std::invalid_argument("more than 10000000 samples do not fit");
+  const double fewest = std::pow(2 * kNodesPerPanel, dimension);
+  if (rule == SamplingRule::kGauss && fewest > static_cast<double>(samples))
+    throw std::invalid_argument("gauss takes 20 nodes along each axis at least, " +
+                                std::to_string(static_cast<std::int64_t>(fewest)) +
+                                " in all: give as many samples, or sobol");
 }
 
 const char* ToString(SamplingRule rule) {
@@ -160,29 +207,30 @@ const char* ToString(SamplingRule rule) {
 WorkspaceStatistics SampleWorkspace(const Box& box, const StatisticsOptions& options,
                                     const BatchEvaluator& evaluate) {
   box.Check();
-  options.sampling.Check();
+  const int dimension = static_cast<int>(box.FreeCoordinates().size());
+  options.sampling.Check(dimension);
   const bool is_gauss = options.sampling.rule == SamplingRule::kGauss;
   WorkspaceStatistics statistics;
   statistics.certainty = is_gauss ? Certainty::kRefinement : Certainty::kStatistical95;
   statistics.replicates = is_gauss ? 2 : kReplicates;
-  const int dimension = static_cast<int>(box.FreeCoordinates().size());
   std::vector<Replicate> replicates;
-  bool has_inside = true;
+  std::vector<double> allowed;
   for (int i = 0; i < statistics.replicates; ++i) {
-    replicates.push_back(
-        Evaluate(box, UnitCubePoints(options.sampling, dimension, i), options.quantiles, evaluate));
+    replicates.push_back(Evaluate(box, UnitCubePoints(options.sampling, dimension, i), evaluate));
     statistics.samples += replicates.back().points;
     statistics.inside += replicates.back().inside;
+    statistics.near_singular += replicates.back().near_singular;
     statistics.singular += replicates.back().singular;
-    has_inside &= replicates.back().inside > 0;
+    allowed.push_back(replicates.back().allowed);
     if (options.progress) options.progress(i + 1, statistics.replicates);
   }
-  statistics.allowed_fraction =
-      Over(replicates, statistics.certainty, [](const Replicate& r) { return r.allowed; });
-  if (!has_inside) return statistics;
-  for (size_t quantity = 0; quantity < replicates.front().quantities.size(); ++quantity)
+  const double mean_allowed =
+      std::accumulate(allowed.begin(), allowed.end(), 0.0) / static_cast<double>(allowed.size());
+  statistics.allowed_fraction = Enclose(mean_allowed, allowed, statistics.certainty);
+  if (LeastInside(replicates) < kLeastInside) return statistics;
+  for (Eigen::Index quantity = 0; quantity < replicates.front().values.rows(); ++quantity)
     statistics.quantities.push_back(
-        CombineQuantity(replicates, quantity, statistics.certainty, options.quantiles));
+        StatisticsOf(replicates, quantity, statistics.certainty, options.quantiles));
   return statistics;
 }
 

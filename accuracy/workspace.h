@@ -50,23 +50,32 @@ struct Sampling {
   size_t samples = 1 << 16;
   std::uint64_t seed = 1;
 
-  void Check() const;  // throws std::invalid_argument
+  // Throws std::invalid_argument for fewer than 16 or more than kMostSamples, and where Gauss' rule, which
+  // takes 20 nodes along each axis at least, would need more of them than that.
+  void Check(int dimension) const;
 };
 inline constexpr int kReplicates = 16;
+inline constexpr size_t kMostSamples = 10'000'000;  // they are kept, for quantiles
+
+// Points inside that each replicate needs for any statistics, and beyond a quantile on either side for that.
+inline constexpr size_t kLeastInside = 10;
+inline constexpr double kLeastBeyondQuantile = 10;
 
 // What is known of each point of a batch.
 enum class PointState {
-  kInside,    // counts
-  kOutside,   // not in the set, such as beyond a joint's range
-  kSingular,  // in the set, but without finite errors
+  kInside,        // counts
+  kNearSingular,  // counts, but its errors are very large
+  kSingular,      // in the set, but without finite errors
+  kOutside,       // not in the set, such as beyond a joint's range
 };
 struct BatchValues {
-  Eigen::MatrixXd values;  // a row a quantity, a column a point; read only where the state is kInside
+  Eigen::MatrixXd values;  // a row a quantity, a column a point; read only where the point counts
   std::vector<PointState> states;
 };
 // Called with points a column each, of all coordinates of the box.
 using BatchEvaluator = std::function<BatchValues(const Eigen::MatrixXd& points)>;
 
+// Its enclosure is NaN where too few points tell: see kLeastBeyondQuantile.
 struct Quantile {
   double part = 0;
   Enclosure at;
@@ -80,10 +89,10 @@ struct QuantityStatistics {
 
 struct WorkspaceStatistics {
   Certainty certainty = Certainty::kStatistical95;
-  size_t samples = 0, inside = 0, singular = 0;
+  size_t samples = 0, inside = 0, near_singular = 0, singular = 0;  // near singular ones are inside
   int replicates = 0;
   Enclosure allowed_fraction;  // of the box's volume that is in the set, singular points included
-  std::vector<QuantityStatistics> quantities;  // empty where no point is inside
+  std::vector<QuantityStatistics> quantities;  // empty where some replicate has hardly a point inside
 };
 
 struct StatisticsOptions {
@@ -92,8 +101,9 @@ struct StatisticsOptions {
   std::function<void(int done, int total)> progress;
 };
 
-// Means are over the inside of the set. Throws std::invalid_argument for a box or a sampling that does not
-// pass Check.
+// Values are those of all replicates' points together, half widths follow from how they differ between
+// replicates. Means are over the inside of the set. Throws std::invalid_argument for a box or a sampling that
+// does not pass Check.
 WorkspaceStatistics SampleWorkspace(const Box& box, const StatisticsOptions& options,
                                     const BatchEvaluator& evaluate);
 

@@ -23,7 +23,8 @@ bool IsInRange(const Mechanism& mechanism, const Eigen::VectorXd& readings_m) {
 }
 
 PointState StateOf(PoseStatus status) {
-  return status == PoseStatus::kSingular ? PointState::kSingular : PointState::kInside;
+  if (status == PoseStatus::kRegular) return PointState::kInside;
+  return status == PoseStatus::kSingular ? PointState::kSingular : PointState::kNearSingular;
 }
 
 BatchValues EvaluateHexapod(const GoughStewart& robot, const std::vector<Rigid3>& poses,
@@ -80,19 +81,23 @@ BatchValues EvaluateEach(const Mechanism& mechanism, const std::vector<Rigid3>& 
 
 constexpr int kSubdivisions = 8;  // cells of 1/256 of the first
 
-// The places that one leg allows, the platform's orientation kept: between two spheres.
+// The places that one leg allows: between two spheres.
 struct LegShell {
   Eigen::Vector3d centre_m;
   double shortest_m, longest_m;
 };
 
-std::vector<LegShell> ShellsOf(const Mechanism& mechanism, const Rigid3& pose) {
+// Turned by up to turn_rad, R B moves by at most |B| times that.
+std::vector<LegShell> ShellsOf(const Mechanism& mechanism, const Rigid3& pose, double turn_rad) {
   std::vector<LegShell> shells;
   const std::vector<LegShape> legs = LegShapesOf(mechanism);
   const auto ranges = JointRangesOf(mechanism);
-  for (size_t i = 0; i < legs.size(); ++i)
+  for (size_t i = 0; i < legs.size(); ++i) {
+    const double swing_m = turn_rad * legs[i].platform_joint_m.norm();
     shells.push_back({legs[i].base_joint_m - pose.rotation * legs[i].platform_joint_m,
-                      ranges[i][0] + legs[i].joint_offset_m, ranges[i][1] + legs[i].joint_offset_m});
+                      ranges[i][0] + legs[i].joint_offset_m - swing_m,
+                      ranges[i][1] + legs[i].joint_offset_m + swing_m});
+  }
   return shells;
 }
 
@@ -140,7 +145,10 @@ std::array<Cell, 8> Halved(const Cell& cell) {
 }  // namespace
 
 BatchEvaluator ErrorEvaluator(const Mechanism& mechanism, const WorkspaceErrorOptions& options) {
-  const double home_determinant = DeterminantOf(FullInverseJacobianOf(mechanism, HomeOf(mechanism)));
+  const FullInverseJacobian home = FullInverseJacobianOf(mechanism, HomeOf(mechanism));
+  // At a singular home rounding makes the sign.
+  const bool home_has_aspect = Invert(home).status != PoseStatus::kSingular;
+  const double home_determinant = home_has_aspect ? DeterminantOf(home) : 0;
   return [mechanism, options, home_determinant](const Eigen::MatrixXd& points) {
     const std::vector<Rigid3> poses = PosesOf(points, options);
     const auto* hexapod = std::get_if<GoughStewart>(&mechanism);
@@ -154,8 +162,9 @@ BatchEvaluator ErrorEvaluator(const Mechanism& mechanism, const WorkspaceErrorOp
   };
 }
 
-std::optional<Eigen::Matrix<double, 3, 2>> ReachableRanges(const Mechanism& mechanism, const Rigid3& pose) {
-  const std::vector<LegShell> shells = ShellsOf(mechanism, pose);
+std::optional<Eigen::Matrix<double, 3, 2>> ReachableRanges(const Mechanism& mechanism, const Rigid3& pose,
+                                                           double turn_rad) {
+  const std::vector<LegShell> shells = ShellsOf(mechanism, pose, turn_rad);
   std::vector<Cell> cells = {CellAround(shells, pose.translation)};
   for (int level = 0; level < kSubdivisions; ++level) {
     std::vector<Cell> finer;

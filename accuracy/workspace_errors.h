@@ -30,9 +30,11 @@ struct WorkspaceErrorOptions {
 BatchEvaluator ErrorEvaluator(const Mechanism& mechanism, const WorkspaceErrorOptions& options);
 
 // Ranges of x, y, z that hold every place of the platform's origin that the joint ranges allow with the
-// platform oriented as in `pose`, on the side of the base where the pose is; up to a third wider than they
-// must be. By subdivision: a cell is out where the shortest or longest length of some leg in it, the
-// distances of a point from a base joint, is. Columns: lowest, highest. Nothing where there is no such place.
-std::optional<Eigen::Matrix<double, 3, 2>> ReachableRanges(const Mechanism& mechanism, const Rigid3& pose);
+// platform oriented as in `pose` or turned from there by up to turn_rad, on the side of the base where the
+// pose is; for one orientation up to a third wider than they must be. By subdivision: a cell is out where the
+// shortest or longest length of some leg in it, the distances of a point from a base joint, is. Columns:
+// lowest, highest. Nothing where there is no such place.
+std::optional<Eigen::Matrix<double, 3, 2>> ReachableRanges(const Mechanism& mechanism, const Rigid3& pose,
+                                                           double turn_rad = 0);
 
 }  // namespace legible

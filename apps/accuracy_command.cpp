@@ -11,6 +11,7 @@
 #include "apps/report_page.h"
 #include "apps/wording.h"
 #include "datasets/atomic_file.h"
+#include "datasets/input_error.h"
 
 namespace legible {
 namespace {
@@ -29,9 +30,20 @@ std::string TextOf(const AccuracyRun& run, const nlohmann::ordered_json& documen
   return AccuracyTable(document);
 }
 
+// The result must not take the place of what it is computed from.
+void DemandOtherThanInputs(const AccuracySettings& settings) {
+  if (!settings.out) return;
+  std::error_code ignored;
+  for (const auto& input : {std::optional(settings.model), settings.poses_file})
+    if (input && std::filesystem::equivalent(*input, *settings.out, ignored))
+      throw InputError(*settings.out, 0, "is what is read, and would be overwritten",
+                       "name another file with --out");
+}
+
 }  // namespace
 
 int RunAccuracy(const AccuracySettings& settings, const Console& console) {
+  DemandOtherThanInputs(settings);
   ProgressLine progress(console);
   const AccuracyRun run = JudgeAccuracy(settings, progress);
   const nlohmann::ordered_json document = AccuracyJson(run);

@@ -83,7 +83,8 @@ JudgedRobot ReadJudgedRobot(const AccuracySettings& settings) {
 
 PoseAccuracyOptions PoseOptionsOf(const AccuracySettings& settings, const JudgedRobot& robot) {
   const int joints = JointCountOf(robot.mechanism);
-  const std::vector<double>& errors_m = settings.joint_error_m;
+  const std::vector<double> errors_m =
+      settings.joint_error_m.empty() ? std::vector<double>{kAssumedJointError_m} : settings.joint_error_m;
   if (errors_m.size() != 1 && errors_m.size() != static_cast<size_t>(joints))
     throw InputError(
         settings.model, 0,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -15,8 +16,6 @@ namespace legible {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr size_t kContributions = 12;  // of each source; the others add up to little
 
 // --- One pose.
 // ---------------------------------------------------------------------------------------------------------
@@ -110,12 +109,10 @@ ordered_json VertexCheckJson(const VertexCheck& check, const InUnits& units) {
 
 ordered_json SourceJson(const SourceErrors& source, const InUnits& units) {
   ordered_json contributions = ordered_json::array();
-  for (size_t i = 0; i < std::min(kContributions, source.contributions.size()); ++i) {
-    const Contribution& one = source.contributions[i];
+  for (const Contribution& one : source.contributions)
     contributions.push_back({{"name", one.parameter},
                              {"position", units.Length(one.position_m)},
                              {"rotation", units.Angle(one.rotation_rad)}});
-  }
   return {{"name", source.name},
           {"label", source.name == "joints" ? "joint readings" : source.name},
           {"bound", EightJson(source.bound, units)},
@@ -129,6 +126,13 @@ Eigen::MatrixXd CovarianceInUnits(Eigen::MatrixXd covariance, const InUnits& uni
   return covariance;
 }
 
+bool HasFullRank(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(0).cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return covariance.rows() == 6 &&
+         Eigen::FullPivLU<Eigen::MatrixXd>(correlation).setThreshold(1e-9).rank() == 6;
+}
+
 void AddSources(const PoseAccuracy& accuracy, const InUnits& units, ordered_json& json) {
   ordered_json sources = ordered_json::array();
   for (const SourceErrors& source : accuracy.sources) sources.push_back(SourceJson(source, units));
@@ -138,8 +142,10 @@ void AddSources(const PoseAccuracy& accuracy, const InUnits& units, ordered_json
   json["sources"] = sources;
   json["together"] = SourceJson(*accuracy.together, units);
   json["together"]["of"] = accuracy.together->name;
-  json["region_95"] = {{"covariance", Rows(CovarianceInUnits(accuracy.together->covariance, units))},
-                       {"chi_squared", kChiSquared95Of6}};
+  json["region_95"] = nullptr;  // a platform whose errors leave some coordinate exact has no such region
+  if (HasFullRank(accuracy.together->covariance))
+    json["region_95"] = {{"covariance", Rows(CovarianceInUnits(accuracy.together->covariance, units))},
+                         {"chi_squared", kChiSquared95Of6}};
 }
 
 ordered_json FreeMotionsJson(const PlatformJacobian& jacobian, const InUnits& units) {
@@ -224,6 +230,10 @@ std::string UnitOfIndex(const std::string& key, const ordered_json& units) {
   return units.contains(key) ? units.at(key).get<std::string>() : "";
 }
 
+ordered_json MisrankedJson(const Ranking& ranking) {
+  return ranking.clear_pairs > 0 ? ordered_json(ranking.misranked) : ordered_json();
+}
+
 ordered_json ComparisonJson(const Comparison& comparison, const ordered_json& unit_names,
                             const InUnits& units) {
   ordered_json indices = ordered_json::array();
@@ -236,7 +246,7 @@ ordered_json ComparisonJson(const Comparison& comparison, const ordered_json& un
          {"unit", UnitOfIndex(index.key, unit_names)},
          {"tau", {{"position", index.by_position.tau}, {"rotation", index.by_rotation.tau}}},
          {"misranked",
-          {{"position", index.by_position.misranked}, {"rotation", index.by_rotation.misranked}}},
+          {{"position", MisrankedJson(index.by_position)}, {"rotation", MisrankedJson(index.by_rotation)}}},
          {"trusted",
           {{"position", MayBeTrusted(index.by_position)}, {"rotation", MayBeTrusted(index.by_rotation)}}},
          {"worst_inversions", inversions}});
@@ -251,7 +261,7 @@ ordered_json ComparisonJson(const Comparison& comparison, const ordered_json& un
 
 ordered_json AccuracyJson(const AccuracyRun& run) {
   const InUnits units(run.settings);
-  const ordered_json unit_names = UnitsJson(run.settings);
+  const ordered_json unit_names = UnitsJson(run);
   ordered_json poses = ordered_json::array();
   for (const JudgedPose& pose : run.poses) poses.push_back(PoseJson(pose, run, units));
   ordered_json document = {{"model", run.settings.model.string()},

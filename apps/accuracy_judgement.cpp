@@ -17,29 +17,55 @@ constexpr size_t kMostPosesNamed = 5;   // one by one
 std::string Percent(double part) { return fmt::format("{:.{}f} %", 100 * part, part < 0.1 ? 1 : 0); }
 
 std::string JointErrorText(const AccuracyRun& run) {
-  return run.settings.joint_error_m == AccuracySettings().joint_error_m
-             ? "joint errors of up to 1e-4 m were assumed: give --joint-error"
-             : "";
+  return run.settings.joint_error_m.empty() ? "joint errors of up to 1e-4 m were assumed: give --joint-error"
+                                            : "";
+}
+
+bool HasEvidence(const Ranking& ranking) { return ranking.clear_pairs >= kLeastClearPairs; }
+
+// Trusted where there is evidence; of kinds of errors that hardly differ between the poses nothing is asked.
+bool MayOrder(const ComparedIndex& index) {
+  return (MayBeTrusted(index.by_position) || !HasEvidence(index.by_position)) &&
+         (MayBeTrusted(index.by_rotation) || !HasEvidence(index.by_rotation));
+}
+
+// "position and rotation", or the one of both that differs between the poses.
+std::string KindsOf(const ComparedIndex& index) {
+  if (HasEvidence(index.by_position) && HasEvidence(index.by_rotation)) return "position and rotation errors";
+  return HasEvidence(index.by_position) ? "position errors" : "rotation errors";
 }
 
 // The verdict in one sentence.
 std::string Headline(const IndexComparison& comparison, size_t trusted) {
   const ComparedIndex& any = comparison.indices.front();
-  const size_t pairs = std::min(any.by_position.clear_pairs, any.by_rotation.clear_pairs);
-  if (pairs < kLeastClearPairs)
+  if (!HasEvidence(any.by_position) && !HasEvidence(any.by_rotation))
     return fmt::format(
-        "too little to judge the indices by: {} of poses differ by more than {} in position and rotation "
-        "errors; give more "
+        "too little to judge the indices by: {} of poses differ by more than {} in their errors; give more "
         "poses, or --box",
-        Plural(static_cast<int>(pairs), "pair"), Percent(kClearDifference));
+        Plural(static_cast<int>(std::max(any.by_position.clear_pairs, any.by_rotation.clear_pairs)), "pair"),
+        Percent(kClearDifference));
   if (trusted == 0)
-    return "no index may be trusted to order poses of this robot by their errors: use the maximal errors "
-           "themselves";
+    return fmt::format(
+        "no index may be trusted to order these poses by {}: use the maximal errors themselves",
+        KindsOf(any));
   return fmt::format(
-      "{} of {} indices may be trusted to order these poses by position and rotation errors: they misrank "
-      "less than {} of "
-      "the pairs whose errors differ by more than {}",
-      trusted, comparison.indices.size(), Percent(kTrustedMisranked), Percent(kClearDifference));
+      "{} of {} indices may be trusted to order these poses by {}: they misrank less than {} of the pairs "
+      "whose errors "
+      "differ by more than {}",
+      trusted, comparison.indices.size(), KindsOf(any), Percent(kTrustedMisranked),
+      Percent(kClearDifference));
+}
+
+// What an index gets wrong; empty where nothing can be said.
+std::string MisrankedText(const ComparedIndex& index) {
+  std::string text;
+  for (const auto& [name, ranking] :
+       {std::pair("position", &index.by_position), std::pair("rotation", &index.by_rotation)})
+    if (HasEvidence(*ranking))
+      text += fmt::format("{}{} of the pairs whose {} errors differ by more than {}",
+                          text.empty() ? "" : ", and ", Percent(ranking->misranked), name,
+                          Percent(kClearDifference));
+  return text.empty() ? "" : fmt::format("the {} misranks {}", IndexLabel(index.key), text);
 }
 
 // What there is to know of one pose; empty: nothing.
@@ -49,8 +75,9 @@ std::string WarningOf(const JudgedPose& pose) {
   const VertexCheck& check = *pose.accuracy->vertex_check;
   if (!check.converged) return "forward kinematics does not converge at some corner of the joint errors";
   return check.relative > kLinearEnough
-             ? fmt::format("errors in first order are off by {} of the true ones at the corners",
-                           Percent(check.relative))
+             ? fmt::format(
+                   "at the corners of the joint errors the true errors are {} off those in first order",
+                   Percent(check.relative))
              : "";
 }
 
@@ -81,9 +108,11 @@ std::vector<std::string> WorkspaceWarnings(const Workspace& workspace) {
         "the joint ranges cut the box, which Gauss' rule cannot follow: its half widths say too little; use "
         "sobol");
   if (found.quantities.empty())
-    warnings.emplace_back(
-        "hardly any pose of the box is within reach: no statistics; give a box where the robot goes");
-  if (workspace.crosses_singularity || found.singular > 0)
+    warnings.push_back(
+        fmt::format("{} of {} samples lie where the robot can be: too few for statistics; give more "
+                    "--samples, or a box where the robot goes",
+                    found.inside, found.samples));
+  if (workspace.crosses_singularity)
     warnings.emplace_back(
         "a singularity crosses the box: means and variances of the errors do not exist there; read the "
         "quantiles");
@@ -93,19 +122,12 @@ std::vector<std::string> WorkspaceWarnings(const Workspace& workspace) {
 std::vector<std::string> VerdictOn(const IndexComparison& comparison) {
   std::vector<std::string> trusted, rest;
   for (const ComparedIndex& index : comparison.indices) {
-    if (MayBeTrusted(index.by_position) && MayBeTrusted(index.by_rotation))
-      trusted.push_back(IndexLabel(index.key));
-    else
-      rest.push_back(fmt::format(
-          "the {} misranks {} of the pairs whose position errors differ by more than {}, and {} of "
-          "those whose rotation errors do",
-          IndexLabel(index.key), Percent(index.by_position.misranked), Percent(kClearDifference),
-          Percent(index.by_rotation.misranked)));
+    const std::string misranked = MisrankedText(index);
+    if (misranked.empty()) continue;
+    (MayOrder(index) ? trusted : rest).push_back(MayOrder(index) ? IndexLabel(index.key) : misranked);
   }
   std::vector<std::string> verdict = {Headline(comparison, trusted.size())};
-  for (const std::string& label : trusted)
-    verdict.push_back(
-        fmt::format("the {} may be trusted to order poses of this robot by their errors", label));
+  if (!trusted.empty()) verdict.push_back(fmt::format("these may be trusted: {}", fmt::join(trusted, "; ")));
   verdict.insert(verdict.end(), rest.begin(), rest.end());
   return verdict;
 }

@@ -90,7 +90,7 @@ void AddErrorOptions(CLI::App& command, AccuracySettings& settings) {
       "Largest error of a joint reading, m: one for all, or\none for each leg; 1e-4 without it");
   AddText(
       command, "--geometry-error", "M",
-      [&settings](const std::string& text) { settings.geometry_error_m = ParsePositive(text); },
+      [&settings](const std::string& text) { settings.geometry_error_m = ParseLengthError(text); },
       "Largest error of each coordinate of each joint and of\neach offset, m; without it the covariance of "
       "MODEL");
   AddText(
@@ -107,7 +107,8 @@ void AddErrorOptions(CLI::App& command, AccuracySettings& settings) {
       },
       "Legs whose edges are seen, counted from 1; repeat it\nto compare sets; all without it")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->trigger_on_parse();
+      ->trigger_on_parse()
+      ->needs("--edge-noise");
   AddText(
       command, "--characteristic-length", "M",
       [&settings](const std::string& text) { settings.characteristic_length_m = ParsePositive(text); },
@@ -121,8 +122,10 @@ void AddWorkspaceOptions(CLI::App& command, AccuracySettings& settings) {
       "Statistics over a workspace: ranges of x y z rx ry rz\n(m, rad; uniform in these coordinates). What "
       "is not "
       "named\nstays as in the first pose; \"reachable\": x y z wherever\nthe joint ranges allow");
-  command.add_flag("--within-joint-ranges", settings.within_joint_ranges,
-                   "Of the box only poses that the joint ranges allow\n(\"reachable\" implies it)");
+  command
+      .add_flag("--within-joint-ranges", settings.within_joint_ranges,
+                "Of the box only poses that the joint ranges allow\n(\"reachable\" implies it)")
+      ->needs("--box");
   AddText(
       command, "--sampling", "sobol|monte-carlo|grid|gauss",
       [&settings](const std::string& name) {
@@ -135,7 +138,7 @@ void AddWorkspaceOptions(CLI::App& command, AccuracySettings& settings) {
         throw std::invalid_argument("\"" + name + "\" is none of sobol, monte-carlo, grid, gauss");
       },
       "How the box is sampled; sobol without it");
-  command.add_option("--samples", settings.sampling.samples, "How many poses of the box in all")
+  command.add_option("--samples", settings.sampling.samples, "How many poses of the box in all, at least")
       ->check(WholeNumberFrom(kReplicates))
       ->type_name("N")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <stdexcept>
 
 #include "apps/accuracy_input.h"
 #include "apps/wording.h"
@@ -54,7 +55,7 @@ void Judge(const AccuracyRun& run, JudgedPose& pose) {
   pose.status = ToString(jacobian.status);
   if (jacobian.status == PoseStatus::kSingular) pose.message = SingularText(jacobian);
   if (jacobian.status == PoseStatus::kNearSingular)
-    pose.message = "so close to a singularity that errors in first order mean little";
+    pose.message = "close to a singularity: small joint errors move the platform far";
 }
 
 void JudgePoses(AccuracyRun& run, ProgressLine& progress) {
@@ -85,21 +86,38 @@ Rigid3 PoseOf(const OrientationConvention& orientation, const Eigen::Ref<const E
   return {orientation.ToRotation(point.tail<3>()), point.head<3>()};
 }
 
-// Around the first pose; "reachable" where nothing else is asked for.
+// The first pose that the robot can take: the box lies about it.
+const JudgedPose& BoxPose(const AccuracyRun& run) {
+  return *std::find_if(run.poses.begin(), run.poses.end(),
+                       [](const JudgedPose& pose) { return pose.accuracy.has_value(); });
+}
+
+// Over how large a turn the orientations of a box lie about its middle, at most: a rotation vector turns by
+// no more than it changes, Euler angles by no more than their sum.
+double TurnWithin(const Box& box, const OrientationConvention& orientation) {
+  const Eigen::Vector3d half = (box.high - box.low).tail<3>() / 2;
+  return orientation.IsRotationVector() ? half.norm() : half.sum();
+}
+
 Box BoxOf(const AccuracyRun& run, const BoxSetting& setting) {
-  const JudgedPose& first = run.poses.front();
+  const JudgedPose& first = BoxPose(run);
   Box box{first.coordinates, first.coordinates};
-  if (setting.is_reachable) {
-    const auto ranges = ReachableRanges(run.robot.mechanism, first.base_from_platform);
-    if (!ranges)
-      throw InputError(run.settings.model, 0, "has joint ranges that no place allows with this orientation",
-                       "mend joint_range_m, or give --box ranges");
-    box.low.head<3>() = ranges->col(0);
-    box.high.head<3>() = ranges->col(1);
-  }
   for (const auto& [coordinate, range] : setting.ranges) {
     box.low[coordinate] = range[0];
     box.high[coordinate] = range[1];
+  }
+  if (setting.is_reachable) {
+    const Eigen::VectorXd middle = (box.low + box.high) / 2;
+    const Rigid3 pose{run.settings.orientation.ToRotation(middle.tail<3>()), first.coordinates.head<3>()};
+    const auto ranges = ReachableRanges(run.robot.mechanism, pose, TurnWithin(box, run.settings.orientation));
+    if (!ranges)
+      throw InputError(run.settings.model, 0, "has joint ranges that no place allows with this orientation",
+                       "mend joint_range_m, or give --box ranges");
+    for (int i = 0; i < 3; ++i) {
+      if (setting.ranges.contains(i)) continue;
+      box.low[i] = (*ranges)(i, 0);
+      box.high[i] = (*ranges)(i, 1);
+    }
   }
   return box;
 }
@@ -118,11 +136,19 @@ WorkspaceErrorOptions EvaluatorOptions(const AccuracyRun& run, const BoxSetting&
   return options;
 }
 
-// The given length, or home's natural one: one for the whole workspace.
+// One for the whole workspace: the given one, or the natural one of home or, where that is singular, of a
+// pose given.
 double LengthOf(const AccuracyRun& run) {
   if (run.options.characteristic_length_m) return *run.options.characteristic_length_m;
-  const auto home = FullInverseJacobianOf(run.robot.mechanism, HomeOf(run.robot.mechanism));
-  return Invert(home).status == PoseStatus::kSingular ? 1 : NaturalLengths(home).two_m;
+  std::vector<Rigid3> poses = {HomeOf(run.robot.mechanism)};
+  for (const JudgedPose& pose : run.poses)
+    if (pose.HasErrors()) poses.push_back(pose.base_from_platform);
+  for (const Rigid3& pose : poses) {
+    const auto jacobian = FullInverseJacobianOf(run.robot.mechanism, pose);
+    if (Invert(jacobian).status != PoseStatus::kSingular) return NaturalLengths(jacobian).two_m;
+  }
+  throw InputError(run.settings.model, 0, "is singular at home, which has no natural length then",
+                   "give --characteristic-length, or a pose that is not singular");
 }
 
 std::string OverText(const AccuracyRun& run, const BoxSetting& setting, const Box& box) {
@@ -132,8 +158,8 @@ std::string OverText(const AccuracyRun& run, const BoxSetting& setting, const Bo
         fmt::format("{}{} {:.4g} to {:.4g} {}", text.empty() ? "" : ", ",
                     CoordinateNames()[static_cast<size_t>(i)], box.low[i], box.high[i], i < 3 ? "m" : "rad");
   if (setting.is_reachable || run.settings.within_joint_ranges) text += ", as far as the joint ranges allow";
-  if (setting.is_reachable) text += " without crossing a singularity";
-  return text;
+  if (setting.is_reachable) text += ", on home's side of the singularities";
+  return text + ", about " + BoxPose(run).name;
 }
 
 Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressLine& progress) {
@@ -143,6 +169,11 @@ Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressL
   workspace.characteristic_length_m = LengthOf(run);
   StatisticsOptions options;
   options.sampling = run.settings.sampling;
+  try {
+    options.sampling.Check(static_cast<int>(workspace.box.FreeCoordinates().size()));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(run.settings.model, 0, "cannot be sampled so", error.what());
+  }
   options.progress = [&progress](int done, int total) {
     progress.Show(StageText("sampling the workspace", done, total));
   };
@@ -151,7 +182,8 @@ Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressL
       ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, setting, workspace.characteristic_length_m)));
   if (workspace.statistics.quantities.empty()) return workspace;
   const QuantityStatistics& determinant = workspace.statistics.quantities[kDeterminantRow];
-  workspace.crosses_singularity = determinant.smallest_seen < 0 && determinant.largest_seen > 0;
+  workspace.crosses_singularity = (determinant.smallest_seen < 0 && determinant.largest_seen > 0) ||
+                                  workspace.statistics.singular + workspace.statistics.near_singular > 0;
   return workspace;
 }
 
@@ -201,8 +233,9 @@ std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting&
     progress.Show(
         StageText("comparing indices with errors, pose", static_cast<int>(poses.size()), kComparedSamples));
   }
-  std::vector<const PoseAccuracy*> compared;
-  for (const PoseAccuracy& pose : poses) compared.push_back(&pose);
+  std::vector<const PoseAccuracy*> compared(poses.size());
+  std::transform(poses.begin(), poses.end(), compared.begin(),
+                 [](const PoseAccuracy& pose) { return &pose; });
   return Compared(fmt::format("{} poses of the box {}", poses.size(), OverText(run, setting, box)), names,
                   compared);
 }
@@ -248,7 +281,7 @@ std::optional<ErrorMap> MapOf(const AccuracyRun& run, const BoxSetting& setting)
   map.axes = {static_cast<int>(free[0]), static_cast<int>(free[1])};
   map.first = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[0]], box.high[free[0]]);
   map.second = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[1]], box.high[free[1]]);
-  map.held = run.poses.front().coordinates.cwiseMax(box.low).cwiseMin(box.high);
+  map.held = BoxPose(run).coordinates.cwiseMax(box.low).cwiseMin(box.high);
   WorkspaceErrorOptions options = EvaluatorOptions(run, setting, LengthOf(run));
   options.in_aspect_of_home = options.within_joint_ranges = false;
   const BatchEvaluator anywhere = ErrorEvaluator(run.robot.mechanism, options);
@@ -275,6 +308,7 @@ void JudgeBox(AccuracyRun& run, ProgressLine& progress) {
 }  // namespace
 
 bool AccuracyRun::HasErrors() const {
+  if (workspace && !workspace->statistics.quantities.empty()) return true;
   return std::any_of(poses.begin(), poses.end(), [](const JudgedPose& pose) { return pose.HasErrors(); });
 }
 

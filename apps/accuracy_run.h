@@ -40,7 +40,7 @@ struct Workspace {
   Box box;
   std::string over;
   double characteristic_length_m = 1;
-  bool crosses_singularity = false;  // samples of either sign of the determinant
+  bool crosses_singularity = false;  // samples of either sign of the determinant, or near a singularity
   WorkspaceStatistics statistics;    // quantities: the rows of ErrorEvaluator
 };
 
@@ -62,7 +62,7 @@ struct AccuracyRun {
   std::optional<Workspace> workspace;
   std::optional<ErrorMap> map;  // only for pages
 
-  bool HasErrors() const;
+  bool HasErrors() const;  // of a pose or of the workspace
 };
 
 // Reads what the settings name and evaluates it. Throws InputError on bad input: a file, options that this

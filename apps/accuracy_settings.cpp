@@ -18,8 +18,11 @@ constexpr char kReachable[] = "reachable";
 
 std::vector<std::string> Split(const std::string& text, char separator) {
   std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) parts.emplace_back(Trimmed(part));
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(separator, begin), text.size());
+    parts.emplace_back(Trimmed(std::string_view(text).substr(begin, end - begin)));
+    begin = end + 1;
+  }
   return parts;
 }
 
@@ -42,6 +45,10 @@ std::array<double, 2> ParseRange(const std::string& text) {
   if (ends.size() != 2) throw std::invalid_argument(fmt::format("\"{}\" is not LOW:HIGH", text));
   const std::array<double, 2> range = {ParseNumber(ends[0]), ParseNumber(ends[1])};
   if (range[0] > range[1]) throw std::invalid_argument(fmt::format("the range {} is reversed", text));
+  constexpr double kFarthest = 1000;  // m or rad
+  if (range[0] < -kFarthest || range[1] > kFarthest)
+    throw std::invalid_argument(
+        fmt::format("the range {} is beyond any robot; give metres and radians", text));
   return range;
 }
 
@@ -114,8 +121,7 @@ BoxSetting ParseBox(const std::string& text) {
 
 std::vector<double> ParseJointErrors(const std::string& text) {
   std::vector<double> errors;
-  for (const std::string& part : Split(text, ',')) errors.push_back(ParsePositive(part));
-  if (errors.empty()) throw std::invalid_argument("give a number of metres");
+  for (const std::string& part : Split(text, ',')) errors.push_back(ParseLengthError(part));
   return errors;
 }
 
@@ -129,8 +135,16 @@ std::vector<int> ParseLegs(const std::string& text) {
       throw std::invalid_argument(fmt::format("leg {} is named twice", *leg));
     legs.push_back(*leg - 1);
   }
-  if (legs.empty()) throw std::invalid_argument("name the legs, such as 1,3,5");
   return legs;
+}
+
+double ParseLengthError(const std::string& text) {
+  constexpr double kLeast_m = 1e-12, kLargest_m = 1;
+  const double error_m = ParsePositive(text);
+  if (error_m < kLeast_m || error_m > kLargest_m)
+    throw std::invalid_argument(
+        fmt::format("{} m is no error of a robot: give {} to {} m", text, kLeast_m, kLargest_m));
+  return error_m;
 }
 
 double ParsePositive(const std::string& text) {

@@ -34,6 +34,9 @@ struct BoxSetting {
   std::map<int, std::array<double, 2>> ranges;
 };
 
+// Of a joint reading, where the user says nothing.
+inline constexpr double kAssumedJointError_m = 1e-4;
+
 struct AccuracySettings {
   std::filesystem::path model;
   std::vector<Vector6d> poses;  // x y z (m) and three orientation coordinates (rad)
@@ -42,7 +45,8 @@ struct AccuracySettings {
   bool within_joint_ranges = false;
   Sampling sampling;
   int threads = 2;
-  std::vector<double> joint_error_m = {1e-4};  // one for all joints, or one each
+  std::vector<double>
+      joint_error_m;  // one for all joints, or one each; kAssumedJointError_m where none is given
   std::optional<double> geometry_error_m, edge_noise_px, characteristic_length_m;
   std::vector<std::vector<int>> leg_sets = {{0, 1, 2, 3, 4, 5}};  // from 0
   std::optional<std::string> length_unit, angle_unit;             // else by format
@@ -61,6 +65,8 @@ Vector6d ParsePose(const std::string& text);                    // "x y z rx ry 
 BoxSetting ParseBox(const std::string& text);                   // "reachable,rz=-0.1:0.1"
 std::vector<double> ParseJointErrors(const std::string& text);  // "1e-4" or "1e-4,1e-4,…"
 std::vector<int> ParseLegs(const std::string& text);            // "1,3,5", from 1; result from 0
+// Errors of lengths, m: from a picometre to a metre.
+double ParseLengthError(const std::string& text);
 double ParsePositive(const std::string& text);
 
 }  // namespace legible

@@ -27,10 +27,11 @@ const std::vector<std::string> kConditions = {"two",
 const std::vector<std::string> kThreePoint = {"two_three_point", "frobenius_three_point",
                                               "frobenius_three_point_plain"};
 
-constexpr size_t kMostPosesWithSources = 6;  // longer lists show what the sources add up to
+constexpr size_t kMostPosesInDetail = 6;  // of longer lists only errors and what the sources add up to
 
 std::string Number(const ordered_json& value) {
-  return value.is_number() ? fmt::format("{:.5g}", value.get<double>()) : "-";
+  const bool is_known = value.is_number() && std::isfinite(value.get<double>());
+  return is_known ? fmt::format("{:.5g}", value.get<double>()) : "-";
 }
 
 // Member by member; null where one is missing.
@@ -110,7 +111,7 @@ void AddSourceRow(const std::string& pose, const std::string& name, const ordere
 std::string SourceTable(const ordered_json& document) {
   std::vector<Row> rows = {
       {"pose", "source", "bound: position", "rotation", "95 %: position", "rotation", "most from"}};
-  const bool is_long = document.at("poses").size() > kMostPosesWithSources;
+  const bool is_long = document.at("poses").size() > kMostPosesInDetail;
   for (const ordered_json& pose : document.at("poses")) {
     const ordered_json& sources = At(pose, {"sources"});
     if (!sources.is_array()) continue;
@@ -129,6 +130,8 @@ std::string Range(const ordered_json& range) {
 // A row an index, a column a pose.
 std::string IndexTable(const ordered_json& document) {
   const ordered_json& poses = document.at("poses");
+  if (poses.size() > kMostPosesInDetail)
+    return "\nIndices: too many poses for a table; --format csv has a row for each\n";
   std::vector<Row> rows;
   const auto add = [&](const std::string& label, const auto& cell) {
     Row row = {label};
@@ -162,7 +165,8 @@ std::string ComparisonTable(const ordered_json& document) {
       {"index", "tau: position", "rotation", "misranked: position", "rotation", "worst inversion"}};
   for (const ordered_json& index : comparison.at("indices")) {
     const auto percent = [&](const char* of) {
-      return fmt::format("{:.1f} %", 100 * index.at("misranked").at(of).get<double>());
+      const ordered_json& part = index.at("misranked").at(of);
+      return part.is_number() ? fmt::format("{:.1f} %", 100 * part.get<double>()) : std::string("-");
     };
     Row row = {index.at("label"), fmt::format("{:+.2f}", index.at("tau").at("position").get<double>()),
                fmt::format("{:+.2f}", index.at("tau").at("rotation").get<double>()), percent("position"),
@@ -182,7 +186,9 @@ std::string ComparisonTable(const ordered_json& document) {
 }
 
 std::string PlusMinus(const ordered_json& enclosure) {
-  return fmt::format("{} ± {:.1g}", Number(enclosure.at("value")), enclosure.at("half_width").get<double>());
+  const ordered_json& half_width = enclosure.at("half_width");
+  if (!half_width.is_number() || !std::isfinite(half_width.get<double>())) return "-";
+  return fmt::format("{} ± {:.1g}", Number(enclosure.at("value")), half_width.get<double>());
 }
 
 std::string WorkspaceTable(const ordered_json& document) {
@@ -196,12 +202,15 @@ std::string WorkspaceTable(const ordered_json& document) {
       return std::string("-");
     };
     const std::string unit = one.at("unit");
-    const std::string label = one.at("label");
-    rows.push_back({label + (unit.empty() ? "" : ", " + unit), PlusMinus(one.at("mean")), quantile(0.5),
-                    quantile(0.95), Number(one.at("largest_seen")),
-                    fmt::format("{:.5g}", std::sqrt(one.at("variance").at("value").get<double>()))});
+    Row row = {one.at("label")};
+    if (!unit.empty()) row[0].append(", ").append(unit);
+    row.insert(row.end(),
+               {PlusMinus(one.at("mean")), quantile(0.5), quantile(0.95), Number(one.at("largest_seen")),
+                fmt::format("{:.5g}", std::sqrt(one.at("variance").at("value").get<double>()))});
+    rows.push_back(std::move(row));
   }
-  std::string text = Section("Over the workspace " + workspace.at("over").get<std::string>(), rows);
+  std::string text = fmt::format("\nOver the workspace {}\n", workspace.at("over").get<std::string>());
+  if (rows.size() > 1) text += Aligned(rows);
   text += fmt::format("  {} samples ({}), {} of the box allowed; {}\n", workspace.at("samples").get<size_t>(),
                       workspace.at("rule").get<std::string>(), PlusMinus(workspace.at("allowed_fraction")),
                       workspace.at("certainty").get<std::string>());
@@ -217,7 +226,8 @@ std::string WorkspaceTable(const ordered_json& document) {
 // ------------------------------------------------------------------------------------------------------------
 
 std::string CsvNumber(const ordered_json& value) {
-  return value.is_number() ? fmt::format("{}", value.get<double>()) : "";
+  return value.is_number() && std::isfinite(value.get<double>()) ? fmt::format("{}", value.get<double>())
+                                                                 : "";
 }
 
 // Quoted where it must be (RFC 4180).

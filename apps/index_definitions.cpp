@@ -59,14 +59,18 @@ std::string IndexLabel(const std::string& key) {
   return found == texts.end() ? key : found->label;
 }
 
-ordered_json UnitsJson(const AccuracySettings& settings) {
-  const std::string length = LengthUnitOf(settings).name, angle = AngleUnitOf(settings).name;
+ordered_json UnitsJson(const AccuracyRun& run) {
+  const std::string length = LengthUnitOf(run.settings).name, angle = AngleUnitOf(run.settings).name;
+  // Rows of constraints, (0, s), have no length in them, and the legs' linear columns neither.
+  const bool has_constraints = !std::holds_alternative<GoughStewart>(run.robot.mechanism);
+  const std::string determinant = has_constraints ? "1/rad^3" : length + "^3/rad^3";
   return {{"length", length},
           {"angle", angle},
           {"joint", length},
-          {"determinant", length + "^3/rad^3"},
-          {"manipulability", "rad^3/" + length + "^3"},
-          {"inverse_jacobian", fmt::format("columns 1 to 3: 1; columns 4 to 6: {}/rad", length)},
+          {"determinant", determinant},
+          {"manipulability", has_constraints ? "rad^3" : "rad^3/" + length + "^3"},
+          {"inverse_jacobian", fmt::format("columns 1 to 3: 1; columns 4 to 6: {}/rad{}", length,
+                                           has_constraints ? ", of constraints 1/rad" : "")},
           {"volume", length + "^3 (position), " + angle + "^3 (rotation)"},
           {"volume_6d", fmt::format("{}^3 {}^3", length, angle)}};
 }
@@ -92,7 +96,10 @@ ordered_json ConventionsJson(const AccuracyRun& run) {
            "bounded errors "
            "taken as uniform within their bounds; never above the bound"},
           {"contributions", "share of the variance times the 95 % value; negative where correlations cancel"},
-          {"region_95", "a pose error e lies within e^T C^-1 e <= chi_squared with 95 %, C the covariance"}};
+          {"region_95",
+           "a pose error e lies within e^T C^-1 e <= chi_squared with 95 % where normal errors rule, with "
+           "more where bounded "
+           "ones do; C the covariance"}};
 }
 
 ordered_json DefinitionsJson(const AccuracyRun& run) {

@@ -12,7 +12,7 @@ namespace legible {
 std::string IndexLabel(const std::string& key);
 
 // The members `units`, `conventions`, `definitions` of the document.
-nlohmann::ordered_json UnitsJson(const AccuracySettings& settings);
+nlohmann::ordered_json UnitsJson(const AccuracyRun& run);
 nlohmann::ordered_json ConventionsJson(const AccuracyRun& run);
 nlohmann::ordered_json DefinitionsJson(const AccuracyRun& run);
 

@@ -91,6 +91,7 @@ ordered_json WorkspaceJson(const Workspace& workspace, const AccuracySettings& s
           {"samples", found.samples},
           {"replicates", found.replicates},
           {"inside", found.inside},
+          {"near_singular_samples", found.near_singular},
           {"singular_samples", found.singular},
           {"crosses_singularity", workspace.crosses_singularity},
           {"allowed_fraction", EnclosureJson(found.allowed_fraction, 1)},

@@ -24,9 +24,24 @@ bool Write(const std::filesystem::path& path, std::string_view text) {
   return !file.fail();
 }
 
+// A device or a pipe: a file renamed onto it would take its place.
+bool IsNoFile(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto type = std::filesystem::status(path, ignored).type();
+  return type != std::filesystem::file_type::regular && type != std::filesystem::file_type::directory;
+}
+
 }  // namespace
 
-void WriteFileAtomically(const std::filesystem::path& path, std::string_view text) {
+void WriteFileAtomically(const std::filesystem::path& given_path, std::string_view text) {
+  std::error_code unresolved;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(given_path, unresolved);
+  const std::filesystem::path& path = unresolved ? given_path : target;
+  if (std::filesystem::exists(path, unresolved) && IsNoFile(path)) {
+    errno = 0;
+    if (!Write(path, text)) FailToWrite(given_path, std::strerror(errno));
+    return;
+  }
   const std::filesystem::path part =
       path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), getpid());
   std::error_code ignored;
@@ -34,13 +49,13 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view tex
   if (!Write(part, text)) {
     const std::string reason = std::strerror(errno);
     std::filesystem::remove(part, ignored);
-    FailToWrite(path, reason);
+    FailToWrite(given_path, reason);
   }
   std::error_code error;
   std::filesystem::rename(part, path, error);
   if (error) {
     std::filesystem::remove(part, ignored);
-    FailToWrite(path, error.message());
+    FailToWrite(given_path, error.message());
   }
 }
 

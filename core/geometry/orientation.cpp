@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace legible {
 namespace {
@@ -19,6 +20,26 @@ bool HasFixedAxes(const std::string& name) { return std::islower(name[0]) != 0; 
 
 Eigen::Quaterniond About(int axis, double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::Unit(axis)));
+}
+
+// Angles about moving axes i, j, k with R = R_i R_j R_k, the middle one in [-pi/2, pi/2], or in [0, pi] where
+// the first and the last axis are the same: small turns have small angles. In gimbal lock the third is 0.
+Eigen::Vector3d MovingAngles(const Eigen::Matrix3d& r, int i, int j, int k) {
+  constexpr double kLocked = 1e-12;
+  const bool is_proper = i == k;
+  const int other = 3 - i - j;                        // the axis that is neither i nor j
+  const double sign = (j - i + 3) % 3 == 1 ? 1 : -1;  // of the permutation i, j, other
+  Eigen::Vector3d angles;
+  if (is_proper) {
+    const double sine = std::hypot(r(j, i), r(other, i));
+    angles[1] = std::atan2(sine, r(i, i));
+    if (sine < kLocked) return {std::atan2(sign * r(other, j), r(j, j)), angles[1], 0};
+    return {std::atan2(r(j, i), -sign * r(other, i)), angles[1], std::atan2(r(i, j), sign * r(i, other))};
+  }
+  const double cosine = std::hypot(r(i, i), r(i, j));
+  angles[1] = std::atan2(sign * r(i, k), cosine);
+  if (cosine < kLocked) return {std::atan2(sign * r(k, j), r(j, j)), angles[1], 0};
+  return {std::atan2(-sign * r(j, k), r(k, k)), angles[1], std::atan2(-sign * r(i, j), r(i, i))};
 }
 
 }  // namespace
@@ -57,8 +78,8 @@ Eigen::Vector3d OrientationConvention::FromRotation(const Eigen::Quaterniond& ro
   const Eigen::Matrix3d matrix = rotation.toRotationMatrix();
   const int first = AxisOf(name_[0]), second = AxisOf(name_[1]), third = AxisOf(name_[2]);
   // Fixed axes a, b, c are moving axes c, b, a.
-  if (HasFixedAxes(name_)) return matrix.eulerAngles(third, second, first).reverse();
-  return matrix.eulerAngles(first, second, third);
+  if (HasFixedAxes(name_)) return MovingAngles(matrix, third, second, first).reverse();
+  return MovingAngles(matrix, first, second, third);
 }
 
 }  // namespace legible

@@ -59,6 +59,27 @@ TEST(ReachableRanges, HoldWhatTheJointRangesAllowAndLittleMore) {
   }
 }
 
+TEST(ReachableRanges, HoldAllOrientationsWithinATurn) {
+  std::mt19937_64 generator = TestGenerator();
+  const Mechanism mechanism = MerletRobot();
+  constexpr double kTurn_rad = 0.4;
+  const auto ranges = ReachableRanges(mechanism, HomeOf(mechanism), kTurn_rad);
+  ASSERT_TRUE(ranges);
+  int reached = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Eigen::Vector3d turn =
+        Uniform(generator, 0, kTurn_rad) * UniformVector(generator, -1, 1).normalized();
+    const Rigid3 pose{
+        RotationFromVector(turn),
+        {Uniform(generator, -0.5, 0.5), Uniform(generator, -0.5, 0.5), Uniform(generator, 0.2, 0.7)}};
+    if (!JointsOutOfRange(mechanism, JointReadingsOf(mechanism, pose)).empty()) continue;
+    ++reached;
+    EXPECT_TRUE((pose.translation.array() >= ranges->col(0).array()).all() &&
+                (pose.translation.array() <= ranges->col(1).array()).all());
+  }
+  EXPECT_GT(reached, 100);
+}
+
 TEST(ReachableRanges, AreNoneWhereNoPlaceSuitsAllLegs) {
   GoughStewart robot = MerletRobot();
   robot.legs[0].joint_range_m = {5, 6};

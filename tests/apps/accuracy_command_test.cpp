@@ -195,7 +195,15 @@ TEST(AccuracyCommand, BadInputGetsOneLineAndExitCode2) {
       {{kMerlet, "--samples", "3"}, "--samples: give a whole number from 16"},
       {{kMerlet, "--characteristic-length", "0"}, "--characteristic-length: 0 is not more than 0"},
       {{kMerlet, "--edge-noise", "0.1"}, "has no camera, which --edge-noise needs"},
-      {{kMerlet, "--legs", "1,7"}, "--legs: \"7\" is no leg"},
+      {{kMerlet, "--edge-noise", "1", "--legs", "1,7"}, "--legs: \"7\" is no leg"},
+      {{kMerlet, "--legs", "1,2"}, "--legs requires --edge-noise"},
+      {{kMerlet, "--within-joint-ranges"}, "--within-joint-ranges requires --box"},
+      {{kMerlet, "--joint-error", "1e-4,"}, "--joint-error: \"\" is not a finite number"},
+      {{kMerlet, "--joint-error", "1e300"}, "is no error of a robot"},
+      {{kMerlet, "--box", "x=-1e308:0"}, "is beyond any robot"},
+      {{kMerlet, "--box", "x=-.1:.1,y=-.1:.1,z=.5:.6,rx=0:.1,ry=0:.1,rz=0:.1", "--sampling", "gauss"},
+       "gauss takes 20 nodes"},
+      {{kMerlet, "--samples", "999999999", "--box", "reachable"}, "more than 10000000 samples do not fit"},
       {{kMerlet, "--session", folder.path()}, "session.yaml"},
       {{kMerlet, "--format", "xml"}, "--format: \"xml\" is none of table, json, csv, html"},
       {{kSeoul, "--pose", "0 0 0.4 0.1 0 0"}, "only translates"},
@@ -290,6 +298,41 @@ TEST(AccuracyCommand, WorkspaceHasStatisticsWithTheirUncertaintyAndTheSingularit
   EXPECT_THAT(crossed["warnings"][0].get<std::string>(), HasSubstr("a singularity crosses the box"));
 }
 
+TEST(AccuracyCommand, ABoxLiesAboutTheFirstPoseThatCanBeReached) {
+  const json workspace = Document({kMerlet, "--pose", "0 0 5 0 0 0", "--pose", "0 0 0.53 0 0 0", "--box",
+                                   "x=-0.01:0.01", "--samples", "1024"})["workspace"];
+  EXPECT_EQ(workspace["box"]["z"], json({0.53, 0.53}));
+  EXPECT_THAT(workspace["over"].get<std::string>(), HasSubstr("about pose 2"));
+}
+
+TEST(AccuracyCommand, SmallEulerAnglesOfHomeStaySmall) {
+  const TemporaryFolder folder;
+  // Home turned by -10 degrees about the vertical.
+  const auto robot = folder.Write("robot.yaml", Replaced(Bytes(kMerlet), "rotation_xyzw: [0, 0, 0, 1]",
+                                                         "rotation_xyzw: [0, 0, -0.08715574, 0.9961947]"));
+  const json pose = Document({robot, "--euler", "ZYX"})["poses"][0]["pose"];
+  EXPECT_NEAR(pose[3].get<double>(), -10 * std::numbers::pi / 180, 1e-7);
+  EXPECT_NEAR(pose[4].get<double>(), 0, 1e-12);
+  EXPECT_NEAR(pose[5].get<double>(), 0, 1e-12);
+}
+
+TEST(AccuracyCommand, TheModelIsNotOverwrittenByItsResult) {
+  const TemporaryFolder folder;
+  const auto robot = folder.Write("robot.yaml", Bytes(kMerlet));
+  const ProgramRun run = RunAccuracyOn({robot, "--out", robot});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is what is read, and would be overwritten"));
+  EXPECT_EQ(Bytes(robot), Bytes(kMerlet));
+}
+
+TEST(AccuracyCommand, A3UpuHasUnitsOfItsOwnNoRegionAndASingularLineThatIsSeen) {
+  const json document = Document({kSeoul, "--pose", "0.1 0.05 0.4 0 0 0", "--box", "x=-0.1:0.1,y=-0.1:0.1"});
+  EXPECT_EQ(document["units"]["determinant"], "1/rad^3");
+  EXPECT_TRUE(document["poses"][0]["region_95"].is_null());
+  EXPECT_EQ(document["workspace"]["crosses_singularity"], true);
+  EXPECT_THAT(document["comparison"]["verdict"][0].get<std::string>(), HasSubstr("by position errors"));
+}
+
 TEST(AccuracyCommand, SamplingRulesAgreeWithinWhatTheySay) {
   const auto mean = [&](const std::string& rule) {
     return Document({kMerlet, "--box", "x=-0.1:0.1,y=-0.1:0.1", "--samples", "16384", "--sampling",
@@ -305,7 +348,7 @@ TEST(AccuracyCommand, SamplingRulesAgreeWithinWhatTheySay) {
 }
 
 TEST(AccuracyCommand, TablesSayUnitsConventionAndVerdict) {
-  const ProgramRun run = RunAccuracyOn({kMerlet, "--box", "reachable", "--samples", "1024"});
+  const ProgramRun run = RunAccuracyOn({kMerlet, "--box", "reachable", "--samples", "8192"});
   EXPECT_EQ(run.exit_code, 0);
   for (const char* part : {"Largest errors, mm and deg", "rotation vector", "Where errors come from",
                            "Indices against errors", "Over the workspace", "global conditioning index"})

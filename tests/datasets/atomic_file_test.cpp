@@ -43,5 +43,23 @@ TEST(AtomicFile, LeavesNothingBehindWhereTheRenameFails) {
   EXPECT_THAT(folder.Names(), ElementsAre("occupied"));
 }
 
+TEST(AtomicFile, FollowsALinkAndKeepsIt) {
+  const TemporaryFolder folder;
+  const auto target = folder.Write("target.txt", "old");
+  const auto link = folder.path() / "link.txt";
+  std::filesystem::create_symlink(target, link);
+  WriteFileAtomically(link, "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(Bytes(target), "new");
+}
+
+TEST(AtomicFile, WritesToADeviceAndLeavesItOne) {
+  WriteFileAtomically("/dev/null", "text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_THAT(InputErrorOf([] { WriteFileAtomically("/dev/full", "text"); }),
+              testing::StartsWith("/dev/full: cannot be written: "));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
 }  // namespace
 }  // namespace legible

@@ -17,7 +17,8 @@ export class TurnableView {
     this.picture = svg("svg", { class: "turnable", tabindex: 0, role: "img", "aria-label": description });
     this.element = html("div", { class: "turnable-place" }, this.picture);
     this.listen();
-    new ResizeObserver(([entry]) => this.fit(Math.floor(entry.contentRect.width))).observe(this.element);
+    const fit = ([entry]) => requestAnimationFrame(() => this.fit(Math.floor(entry.contentRect.width)));
+    new ResizeObserver(fit).observe(this.element);
   }
 
   buttons() {
