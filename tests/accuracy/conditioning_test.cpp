@@ -7,25 +7,11 @@
 #include <limits>
 
 #include "accuracy/three_point.h"
-#include "core/robots/gough_stewart.h"
+#include "tests/accuracy/random_hexapod.h"
 #include "tests/testing/matrices.h"
-#include "tests/testing/random.h"
 
 namespace legible {
 namespace {
-
-// A hexapod about its home.
-struct Case {
-  GoughStewart robot;
-  Rigid3 pose;
-};
-Case RandomCase(std::mt19937_64& generator) {
-  Case drawn{DesktopHexapod(generator, 0.005), {}};
-  Vector6d displacement;
-  displacement << UniformVector(generator, -0.05, 0.05), UniformVector(generator, -0.2, 0.2);
-  drawn.pose = Displaced(drawn.robot.home, displacement);
-  return drawn;
-}
 
 GoughStewart Scaled(GoughStewart robot, double factor) {
   for (Leg& leg : robot.legs) leg.base_joint_m *= factor, leg.platform_joint_m *= factor;
@@ -59,7 +45,7 @@ TEST(ConditionNumbers, AreInfiniteWithoutFullRank) {
 TEST(NaturalLength, NoOtherLengthGivesASmallerConditionNumber) {
   std::mt19937_64 generator = TestGenerator();
   for (int n = 0; n < 20; ++n) {
-    const Case drawn = RandomCase(generator);
+    const HexapodAtPose drawn = RandomHexapod(generator);
     const FullInverseJacobian jacobian = FullInverseJacobianOf(drawn.robot, drawn.pose);
     const CharacteristicLengths natural = NaturalLengths(jacobian);
     const ConditionNumbers least = NormalizedConditionNumbers(jacobian, natural);
@@ -77,7 +63,7 @@ TEST(NaturalLength, NoOtherLengthGivesASmallerConditionNumber) {
 
 TEST(LengthUnit, ChangesTheDeterminantByItsCubeAndTheManipulabilityByItsInverseCube) {
   std::mt19937_64 generator = TestGenerator();
-  const Case drawn = RandomCase(generator);
+  const HexapodAtPose drawn = RandomHexapod(generator);
   const FullInverseJacobian metres = FullInverseJacobianOf(drawn.robot, drawn.pose);
   const FullInverseJacobian millimetres = InLengthUnit(metres, 1e-3);
   EXPECT_NEAR(DeterminantOf(millimetres) / DeterminantOf(metres), 1e9, 1e-2);
@@ -86,7 +72,7 @@ TEST(LengthUnit, ChangesTheDeterminantByItsCubeAndTheManipulabilityByItsInverseC
 
 TEST(LengthUnit, OfTheMatrixIsThatOfARobotWhoseLengthsAreWrittenInIt) {
   std::mt19937_64 generator = TestGenerator();
-  const Case drawn = RandomCase(generator);
+  const HexapodAtPose drawn = RandomHexapod(generator);
   const Rigid3 pose_mm{drawn.pose.rotation, 1e3 * drawn.pose.translation};
   EXPECT_TRUE(AreNear(InLengthUnit(FullInverseJacobianOf(drawn.robot, drawn.pose), 1e-3).matrix,
                       InverseJacobian(Scaled(drawn.robot, 1e3), pose_mm), 1e-9));
@@ -94,7 +80,7 @@ TEST(LengthUnit, OfTheMatrixIsThatOfARobotWhoseLengthsAreWrittenInIt) {
 
 TEST(LengthUnit, ChangesPlainConditionNumbersButNoNormalisedAndNoThreePointOnes) {
   std::mt19937_64 generator = TestGenerator();
-  const Case drawn = RandomCase(generator);
+  const HexapodAtPose drawn = RandomHexapod(generator);
   const FullInverseJacobian metres = FullInverseJacobianOf(drawn.robot, drawn.pose);
   const FullInverseJacobian millimetres = InLengthUnit(metres, 1e-3);
   EXPECT_GT(ConditionNumbersOf(millimetres.matrix).two, 2 * ConditionNumbersOf(metres.matrix).two);
@@ -119,30 +105,27 @@ TEST(LengthUnit, ChangesPlainConditionNumbersButNoNormalisedAndNoThreePointOnes)
 
 TEST(Frames, ChangeNoIndexOfARobotThatIsDescribedInAnotherBaseFrame) {
   std::mt19937_64 generator = TestGenerator();
-  const Case drawn = RandomCase(generator);
-  const Rigid3 world_from_base{UniformRotation(generator), UniformVector(generator, -1, 1)};
-  GoughStewart moved = drawn.robot;
-  for (Leg& leg : moved.legs) leg.base_joint_m = world_from_base * leg.base_joint_m;
-  const Rigid3 moved_pose = world_from_base * drawn.pose;
-  const ConditionNumbers here = ConditionNumbersOf(InverseJacobian(drawn.robot, drawn.pose));
-  const ConditionNumbers there = ConditionNumbersOf(InverseJacobian(moved, moved_pose));
-  EXPECT_NEAR(there.two / here.two, 1, 1e-10);
-  EXPECT_NEAR(there.frobenius / here.frobenius, 1, 1e-10);
-  EXPECT_NEAR(std::abs(DeterminantOf(FullInverseJacobianOf(moved, moved_pose)) /
-                       DeterminantOf(FullInverseJacobianOf(drawn.robot, drawn.pose))),
-              1, 1e-10);
-  EXPECT_NEAR(ThreePointConditionsOf(moved, moved_pose).two.largest /
-                  ThreePointConditionsOf(drawn.robot, drawn.pose).two.largest,
-              1, 1e-9);
+  for (int n = 0; n < 20; ++n) {
+    const HexapodAtPose here = RandomHexapod(generator), there = InAnotherBase(here, generator);
+    const auto jacobian_here = FullInverseJacobianOf(here.robot, here.pose);
+    const auto jacobian_there = FullInverseJacobianOf(there.robot, there.pose);
+    const ConditionNumbers of_here = ConditionNumbersOf(jacobian_here.matrix);
+    const ConditionNumbers of_there = ConditionNumbersOf(jacobian_there.matrix);
+    EXPECT_NEAR(of_there.two / of_here.two, 1, 1e-9);
+    EXPECT_NEAR(of_there.frobenius / of_here.frobenius, 1, 1e-9);
+    EXPECT_NEAR(std::abs(DeterminantOf(jacobian_there) / DeterminantOf(jacobian_here)), 1, 1e-9);
+    EXPECT_NEAR(ThreePointConditionsOf(there.robot, there.pose).two.largest /
+                    ThreePointConditionsOf(here.robot, here.pose).two.largest,
+                1, 1e-8);
+  }
 }
 
 // --- Three points.
-// ----------------------------------------------------------------------------------------------
 
 TEST(ThreePointJacobian, GivesTheLegSpeedsOfEveryRigidMotionAlsoOfPlatformsThatAreNotFlat) {
   std::mt19937_64 generator = TestGenerator();
   for (int n = 0; n < 20; ++n) {
-    const Case drawn = RandomCase(generator);  // its joints lie up to 5 mm off their plane
+    const HexapodAtPose drawn = RandomHexapod(generator);  // its joints lie up to 5 mm off their plane
     Vector6d twist;
     twist << UniformVector(generator, -1, 1), UniformVector(generator, -1, 1);
     Eigen::Matrix<double, 9, 1> velocities;

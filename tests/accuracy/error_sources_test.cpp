@@ -10,10 +10,10 @@
 #include <random>
 
 #include "accuracy/maximal_errors.h"
+#include "tests/accuracy/random_hexapod.h"
 #include "tests/testing/derivatives.h"
 #include "tests/testing/edge_shift.h"
 #include "tests/testing/matrices.h"
-#include "tests/testing/random.h"
 
 namespace legible {
 namespace {
@@ -36,13 +36,8 @@ struct Case {
   PlatformJacobian jacobian;
 };
 Case RandomCase(std::mt19937_64& generator) {
-  Case drawn{DesktopHexapod(generator, 0.005), {}, {}};
-  for (Leg& leg : drawn.robot.legs) leg.joint_offset_m = Uniform(generator, -0.002, 0.002);
-  Vector6d displacement;
-  displacement << UniformVector(generator, -0.05, 0.05), UniformVector(generator, -0.2, 0.2);
-  drawn.pose = Displaced(drawn.robot.home, displacement);
-  drawn.jacobian = Invert(FullInverseJacobianOf(drawn.robot, drawn.pose));
-  return drawn;
+  const HexapodAtPose at = RandomHexapod(generator);
+  return {at.robot, at.pose, Invert(FullInverseJacobianOf(at.robot, at.pose))};
 }
 
 Eigen::MatrixXd RandomCovariance(std::mt19937_64& generator, Eigen::Index size, double scale) {
