@@ -77,7 +77,6 @@ BatchValues EvaluateEach(const Mechanism& mechanism, const std::vector<Rigid3>& 
 }
 
 // --- Where the platform's origin can be.
-// -----------------------------------------------------------------------------
 
 constexpr int kSubdivisions = 8;  // cells of 1/256 of the first
 

@@ -18,7 +18,6 @@ namespace {
 using nlohmann::ordered_json;
 
 // --- One pose.
-// ---------------------------------------------------------------------------------------------------------
 
 ordered_json EightJson(const Eigen::VectorXd& of_coordinate, double position_m, double rotation_rad,
                        const InUnits& units) {
@@ -191,7 +190,6 @@ ordered_json PoseJson(const JudgedPose& pose, const AccuracyRun& run, const InUn
 }
 
 // --- Over poses.
-// -------------------------------------------------------------------------------------------------------
 
 // Of the first two poses with polyhedra.
 ordered_json IntersectionJson(const AccuracyRun& run, const InUnits& units) {

@@ -21,7 +21,6 @@ constexpr size_t kComparedSamples = 400;
 constexpr int kMapPoints = 61;  // along each axis
 
 // --- Poses.
-// ----------------------------------------------------------------------------------------------------------
 
 // A motion that is free, in words: "turn about (1, 0, 0)".
 std::string MotionText(const PlatformJacobian& jacobian, const Eigen::VectorXd& motion) {
@@ -80,7 +79,6 @@ void DemandSomeReachable(const AccuracyRun& run) {
 }
 
 // --- Workspace.
-// ------------------------------------------------------------------------------------------------------
 
 Rigid3 PoseOf(const OrientationConvention& orientation, const Eigen::Ref<const Eigen::VectorXd>& point) {
   return {orientation.ToRotation(point.tail<3>()), point.head<3>()};
@@ -188,7 +186,6 @@ Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressL
 }
 
 // --- Indices against errors.
-// --------------------------------------------------------------------------------------
 
 std::optional<Comparison> Compared(const std::string& over, const std::vector<std::string>& names,
                                    const std::vector<const PoseAccuracy*>& poses) {
@@ -241,7 +238,6 @@ std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting&
 }
 
 // --- Maps.
-// ------------------------------------------------------------------------------------------------------------
 
 // All points of two coordinates' values, those of the first running fastest, the other coordinates held.
 Eigen::MatrixXd MapPoints(const ErrorMap& map) {

@@ -46,7 +46,6 @@ const ordered_json& At(const ordered_json& json, const std::vector<std::string>&
 }
 
 // --- Tables.
-// -----------------------------------------------------------------------------------------------------------
 
 using Row = std::vector<std::string>;
 
@@ -223,7 +222,6 @@ std::string WorkspaceTable(const ordered_json& document) {
 }
 
 // --- CSV.
-// ------------------------------------------------------------------------------------------------------------
 
 std::string CsvNumber(const ordered_json& value) {
   return value.is_number() && std::isfinite(value.get<double>()) ? fmt::format("{}", value.get<double>())

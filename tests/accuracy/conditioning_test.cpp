@@ -59,7 +59,6 @@ TEST(NaturalLength, NoOtherLengthGivesASmallerConditionNumber) {
 }
 
 // --- What a change of the length unit changes, and what it does not.
-// ------------------------------------------
 
 TEST(LengthUnit, ChangesTheDeterminantByItsCubeAndTheManipulabilityByItsInverseCube) {
   std::mt19937_64 generator = TestGenerator();

@@ -58,7 +58,6 @@ Eigen::VectorXd NormalVector(std::mt19937_64& generator, Eigen::Index size) {
 }
 
 // --- Derivatives against differences of the forward kinematics.
-// -------------------------------------------------
 
 TEST(PlatformJacobianByDifferences, OfTheJointReadingsAgreesToAMillionth) {
   std::mt19937_64 generator = TestGenerator();
@@ -104,7 +103,6 @@ TEST(Geometry, NamesAreThoseOfModelFilesAndPickTheirCovariance) {
 }
 
 // --- Vision.
-// -----------------------------------------------------------------------------------------------------
 
 // The pose whose edges fit edges that are shifted by `shifts_px` best, by Gauss-Newton with numeric
 // derivatives: nothing of the interaction matrix or its pseudo-inverse is in here.
@@ -166,7 +164,6 @@ TEST(VisionSource, MoreLegsLeaveSmallerErrorsAndTwoLegsNone) {
 }
 
 // --- Figures.
-// ----------------------------------------------------------------------------------------------------
 
 TEST(RadiusHolding, IsTheClosedFormOnALineInAPlaneAndInAllDirections) {
   EXPECT_NEAR(RadiusHolding(0.95, Eigen::Vector3d(0, 4, 0).asDiagonal()), 2 * 1.959963984540054, 1e-5);

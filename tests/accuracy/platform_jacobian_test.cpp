@@ -66,7 +66,6 @@ TEST(PlatformJacobian, RefusesWhatIsNoInverseJacobian) {
 }
 
 // --- The 3-UPU.
-// ----------------------------------------------------------------------------------------------------
 
 TEST(ThreeUpu, SeoulsIsSingularAtHomeAndMayTurnAboutEveryHorizontalAxis) {
   const ThreeUpu robot = SeoulUpu();
@@ -91,7 +90,6 @@ TEST(ThreeUpu, TsaisHasFiniteErrorsAlsoInRotation) {
 }
 
 // --- The planar 2R.
-// --------------------------------------------------------------------------------------------------
 
 TEST(Planar2R, ErrorsAreTheRowSumsOfItsJacobian) {
   const Planar2R robot{0.4, 0.3};

@@ -18,7 +18,6 @@ namespace {
 using std::numbers::pi;
 
 // --- Merlet's warning (2006, section 6): the planar 2R with equal links.
-// ---------------------------------------
 
 // (8 sqrt 2 ln(1 + sqrt 2) - 5 ln 5) / (2 pi).
 const double kExactGci = (8 * std::sqrt(2.0) * std::log(1 + std::sqrt(2.0)) - 5 * std::log(5.0)) / (2 * pi);
@@ -92,7 +91,6 @@ TEST(Sampling, SobolAndGridsComeCloserThanMonteCarloWithAsManyPoints) {
 }
 
 // --- The rules themselves.
-// ---------------------------------------------------------------------------------------
 
 TEST(Sampling, SobolPutsOnePointIntoEveryIntervalOfEveryAxis) {
   const Eigen::MatrixXd points = UnitCubePoints({SamplingRule::kSobol, 16 * 256, 3}, 6, 2).points;
@@ -128,7 +126,6 @@ TEST(Sampling, GaussIntegratesPolynomialsInThreeDimensionsExactly) {
 }
 
 // --- Sets that the box only contains.
-// ------------------------------------------------------------------------------
 
 // x and |x| on the unit disk in a square, singular in a thin ring.
 BatchValues OnTheDisk(const Eigen::MatrixXd& p) {

@@ -33,7 +33,6 @@ json Document(std::vector<std::string> arguments) {
 }
 
 // --- Merlet's tables from the program.
-// ------------------------------------------------------------------------------
 
 // One unit of the last digit of a number as printed.
 void ExpectPrinted(const json& found, const std::string& printed, const std::string& what) {
@@ -73,7 +72,6 @@ TEST(AccuracyCommand, PrintsAll45EntriesOfMerletsTwoTables) {
 }
 
 // --- Units and conventions.
-// ------------------------------------------------------------------------------------------
 
 TEST(AccuracyCommand, ALengthUnitChangesWhatHasLengthsInItAndNothingElse) {
   const json m = Document({kMerlet, "--pose", "0.05 0.02 0.53 0.05 0.1 0.2"})["poses"][0];
@@ -129,7 +127,6 @@ TEST(AccuracyCommand, EulerAnglesAreTheRotationTheyName) {
 }
 
 // --- Rows, statuses, exit codes.
-// --------------------------------------------------------------------------------------
 
 TEST(AccuracyCommand, APoseOutOfReachIsAStatusInItsRowWhereOthersAreGood) {
   const TemporaryFolder folder;
@@ -223,7 +220,6 @@ TEST(AccuracyCommand, BadInputGetsOneLineAndExitCode2) {
 }
 
 // --- What else goes in and comes out.
-// ------------------------------------------------------------------------------
 
 TEST(AccuracyCommand, PosesOfASessionComeFromItsJointReadings) {
   const json document = Document({kHexapod + "/robot.yaml", "--session", kHexapod});
