@@ -47,8 +47,8 @@ Eigen::MatrixXd RandomCovariance(std::mt19937_64& generator, Eigen::Index size, 
 }
 
 std::vector<std::string> Names(Eigen::Index count) {
-  std::vector<std::string> names;
-  for (Eigen::Index i = 0; i < count; ++i) names.push_back("p" + std::to_string(i));
+  std::vector<std::string> names(static_cast<size_t>(count));
+  for (size_t i = 0; i < names.size(); ++i) names[i] = "p" + std::to_string(i);
   return names;
 }
 
@@ -109,8 +109,9 @@ TEST(Geometry, NamesAreThoseOfModelFilesAndPickTheirCovariance) {
 Vector6d FitToShiftedEdges(const View& view, const Rigid3& pose, const std::vector<int>& legs,
                            const Eigen::VectorXd& shifts_px) {
   const std::vector<EdgeEnd> ends = EdgeEnds(legs);
-  std::vector<Eigen::Vector2d> points_px;
-  for (const EdgeEnd& end : ends) points_px.push_back(EndPoint(view, end, pose));
+  std::vector<Eigen::Vector2d> points_px(ends.size());
+  std::transform(ends.begin(), ends.end(), points_px.begin(),
+                 [&](const EdgeEnd& end) { return EndPoint(view, end, pose); });
   const auto residuals = [&](const Vector6d& displacement) {
     Eigen::Matrix<double, 24, 1> values = Eigen::Matrix<double, 24, 1>::Zero();
     for (size_t i = 0; i < ends.size(); ++i) {
