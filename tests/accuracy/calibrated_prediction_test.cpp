@@ -26,10 +26,10 @@ constexpr double kReadingBound_m = 2e-5;  // uniform within it
 // gauges).
 GoughStewart InDrawnFrames(GoughStewart truth, const GoughStewart& drawing) {
   for (const auto joint : {&Leg::base_joint_m, &Leg::platform_joint_m}) {
-    std::vector<Eigen::Vector3d> true_joints, drawn_joints;
-    for (int i = 0; i < kLegCount; ++i) {
-      true_joints.push_back(truth.legs[static_cast<size_t>(i)].*joint);
-      drawn_joints.push_back(drawing.legs[static_cast<size_t>(i)].*joint);
+    std::vector<Eigen::Vector3d> true_joints(kLegCount), drawn_joints(kLegCount);
+    for (size_t i = 0; i < kLegCount; ++i) {
+      true_joints[i] = truth.legs[i].*joint;
+      drawn_joints[i] = drawing.legs[i].*joint;
     }
     const Rigid3 drawn_from_true = FitRigid(true_joints, drawn_joints);
     for (Leg& leg : truth.legs) leg.*joint = drawn_from_true * (leg.*joint);
