@@ -1,7 +1,6 @@
 #include <bit>
 #include <boost/random/sobol.hpp>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <stdexcept>
 

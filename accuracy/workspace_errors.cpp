@@ -18,10 +18,6 @@ std::vector<Rigid3> PosesOf(const Eigen::MatrixXd& points, const WorkspaceErrorO
   return poses;
 }
 
-bool IsInRange(const Mechanism& mechanism, const Eigen::VectorXd& readings_m) {
-  return JointsOutOfRange(mechanism, readings_m).empty();
-}
-
 PointState StateOf(PoseStatus status) {
   if (status == PoseStatus::kRegular) return PointState::kInside;
   return status == PoseStatus::kSingular ? PointState::kSingular : PointState::kNearSingular;
@@ -45,7 +41,8 @@ BatchValues EvaluateHexapod(const GoughStewart& robot, const std::vector<Rigid3>
   for (size_t i = 0; i < poses.size(); ++i) {
     const bool counts =
         !options.within_joint_ranges ||
-        IsInRange(robot, errors.joint_readings_m.row(static_cast<Eigen::Index>(i)).transpose());
+        JointsOutOfRange(robot, errors.joint_readings_m.row(static_cast<Eigen::Index>(i)).transpose())
+            .empty();
     batch.states.push_back(counts ? StateOf(errors.status[i]) : PointState::kOutside);
   }
   return batch;
@@ -59,7 +56,7 @@ BatchValues EvaluateEach(const Mechanism& mechanism, const std::vector<Rigid3>& 
   const double length_m = options.characteristic_length_m;
   for (size_t i = 0; i < poses.size(); ++i) {
     if (!CanTake(mechanism, poses[i])) continue;
-    if (options.within_joint_ranges && !IsInRange(mechanism, JointReadingsOf(mechanism, poses[i]))) continue;
+    if (options.within_joint_ranges && !IsReachable(mechanism, poses[i])) continue;
     const FullInverseJacobian inverse = FullInverseJacobianOf(mechanism, poses[i]);
     const PlatformJacobian jacobian = Invert(inverse);
     batch.states[i] = StateOf(jacobian.status);

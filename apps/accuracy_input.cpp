@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
-#include <stdexcept>
-
 #include "apps/wording.h"
 #include "datasets/input_error.h"
 #include "datasets/model_file.h"

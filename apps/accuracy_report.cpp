@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/index_definitions.h"
+#include "apps/json_text.h"
 #include "apps/program.h"
 
 namespace legible {
@@ -19,15 +20,11 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 double MapUnit(int coordinate) { return coordinate < 3 ? kMillimetre_m : kDegree_rad; }
 const char* MapUnitName(int coordinate) { return coordinate < 3 ? "mm" : "deg"; }
 
-json Vector(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  return std::vector<double>(values.data(), values.data() + values.size());
-}
-
 json RobotJson(const Mechanism& mechanism) {
   json legs = json::array();
   for (const LegShape& leg : LegShapesOf(mechanism))
-    legs.push_back({{"base_joint_m", Vector(leg.base_joint_m)},
-                    {"platform_joint_m", Vector(leg.platform_joint_m)},
+    legs.push_back({{"base_joint_m", List(leg.base_joint_m)},
+                    {"platform_joint_m", List(leg.platform_joint_m)},
                     {"radius_m", leg.radius_m}});
   return {{"legs", legs}};
 }
@@ -35,15 +32,15 @@ json RobotJson(const Mechanism& mechanism) {
 json PosesJson(const std::vector<JudgedPose>& poses) {
   json list = json::array();
   for (const JudgedPose& pose : poses)
-    list.push_back({{"rotation_xyzw", Vector(pose.base_from_platform.rotation.coeffs())},
-                    {"translation_m", Vector(pose.base_from_platform.translation)}});
+    list.push_back({{"rotation_xyzw", List(pose.base_from_platform.rotation.coeffs())},
+                    {"translation_m", List(pose.base_from_platform.translation)}});
   return list;
 }
 
 json AxisJson(int coordinate, const Eigen::VectorXd& values) {
   return {{"label", CoordinateNames()[static_cast<size_t>(coordinate)]},
           {"unit", MapUnitName(coordinate)},
-          {"values", Vector(values / MapUnit(coordinate))}};
+          {"values", List(values / MapUnit(coordinate))}};
 }
 
 // "z = 530 mm, rx = 0 deg, …": what the map holds.
@@ -130,9 +127,9 @@ json ScatterJson(const AccuracyRun& run, const nlohmann::ordered_json& document)
     return json{{"key", key},
                 {"label", "largest " + key + " error"},
                 {"unit", name},
-                {"values", Vector(Eigen::Map<const Eigen::VectorXd>(
-                                      values.data(), static_cast<Eigen::Index>(values.size())) /
-                                  unit)}};
+                {"values", List(Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                                  static_cast<Eigen::Index>(values.size())) /
+                                unit)}};
   };
   const OutputUnit length = LengthUnitOf(run.settings), angle = AngleUnitOf(run.settings);
   return {{"over", comparison.over},

@@ -84,10 +84,10 @@ void JudgeBox(AccuracyRun& run, ProgressLine& progress) {
   const bool is_page = run.settings.format == AccuracyFormat::kHtml;
   run.comparison = CompareGiven(run.poses);
   if (!run.settings.box && !is_page) return;
-  const BoxSetting setting = run.settings.box.value_or(BoxSetting{true, {}});
-  if (run.settings.box || !run.comparison) run.comparison = CompareInBox(run, setting, progress);
-  if (run.settings.box) run.workspace = SampleBox(run, setting, progress);
-  if (is_page) run.map = MapOf(run, setting);
+  const LaidBox laid = LayBox(run, run.settings.box.value_or(BoxSetting{true, {}}));
+  if (run.settings.box || !run.comparison) run.comparison = CompareInBox(run, laid, progress);
+  if (run.settings.box) run.workspace = SampleBox(run, laid, progress);
+  if (is_page) run.map = MapOf(run, laid);
 }
 
 }  // namespace

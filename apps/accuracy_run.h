@@ -35,11 +35,18 @@ struct Comparison {
   IndexComparison indices;
 };
 
+// A box as it lies about the first pose that the robot can take.
+struct LaidBox {
+  BoxSetting setting;
+  Box box;
+  Vector6d about;                      // that pose's coordinates
+  std::string over;                    // in words
+  double characteristic_length_m = 1;  // one for all its poses
+};
+
 // Statistics of a box.
 struct Workspace {
-  Box box;
-  std::string over;
-  double characteristic_length_m = 1;
+  LaidBox laid;
   bool crosses_singularity = false;  // samples of either sign of the determinant, or near a singularity
   WorkspaceStatistics statistics;    // quantities: the rows of ErrorEvaluator
 };

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "apps/accuracy_settings.h"
+#include "apps/json_text.h"
 
 namespace legible {
 
@@ -31,10 +31,6 @@ class InUnits {
  private:
   double length_m_, angle_rad_;
 };
-
-inline nlohmann::ordered_json List(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  return std::vector<double>(values.data(), values.data() + values.size());
-}
 
 inline nlohmann::ordered_json Rows(const Eigen::MatrixXd& matrix) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -55,12 +55,12 @@ Box BoxOf(const AccuracyRun& run, const BoxSetting& setting) {
   return box;
 }
 
-WorkspaceErrorOptions EvaluatorOptions(const AccuracyRun& run, const BoxSetting& setting, double length_m) {
+WorkspaceErrorOptions EvaluatorOptions(const AccuracyRun& run, const LaidBox& laid) {
   WorkspaceErrorOptions options;
   options.joint_error_bounds = run.options.joint_error_bounds;
-  options.characteristic_length_m = length_m;
-  options.within_joint_ranges = setting.is_reachable || run.settings.within_joint_ranges;
-  options.in_aspect_of_home = setting.is_reachable;
+  options.characteristic_length_m = laid.characteristic_length_m;
+  options.within_joint_ranges = laid.setting.is_reachable || run.settings.within_joint_ranges;
+  options.in_aspect_of_home = laid.setting.is_reachable;
   options.threads = run.settings.threads;
   options.pose_of_point = [orientation =
                                run.settings.orientation](const Eigen::Ref<const Eigen::VectorXd>& point) {
@@ -113,14 +113,22 @@ Eigen::MatrixXd MapPoints(const ErrorMap& map) {
   return points;
 }
 
+std::vector<bool> AreWithinJointRanges(const AccuracyRun& run, const Eigen::MatrixXd& points) {
+  std::vector<bool> within;
+  within.reserve(static_cast<size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    within.push_back(IsReachable(run.robot.mechanism, PoseOf(run.settings.orientation, points.col(i))));
+  return within;
+}
+
 // Narrows both ranges to where the joint ranges allow a pose, and a little more.
-void NarrowToReach(const BatchEvaluator& evaluate, ErrorMap& map) {
+void NarrowToReach(const AccuracyRun& run, ErrorMap& map) {
   constexpr double kMargin = 0.08;
   const Eigen::MatrixXd points = MapPoints(map);
-  const std::vector<PointState> states = evaluate(points).states;
+  const std::vector<bool> within = AreWithinJointRanges(run, points);
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (states[static_cast<size_t>(i)] == PointState::kOutside) continue;
+    if (!within[static_cast<size_t>(i)]) continue;
     const Eigen::Array2d place(points(map.axes[0], i), points(map.axes[1], i));
     low = low.min(place);
     high = high.max(place);
@@ -139,24 +147,27 @@ std::optional<Comparison> ComparisonOver(const std::string& over, const std::vec
   return Comparison{over, names, CompareIndices(poses)};
 }
 
-Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressLine& progress) {
+LaidBox LayBox(const AccuracyRun& run, const BoxSetting& setting) {
+  LaidBox laid{setting, BoxOf(run, setting), BoxPose(run).coordinates, "", LengthOf(run)};
+  laid.over = OverText(run, setting, laid.box);
+  return laid;
+}
+
+Workspace SampleBox(const AccuracyRun& run, const LaidBox& laid, ProgressLine& progress) {
   Workspace workspace;
-  workspace.box = BoxOf(run, setting);
-  workspace.over = OverText(run, setting, workspace.box);
-  workspace.characteristic_length_m = LengthOf(run);
+  workspace.laid = laid;
   StatisticsOptions options;
   options.sampling = run.settings.sampling;
   try {
-    options.sampling.Check(static_cast<int>(workspace.box.FreeCoordinates().size()));
+    options.sampling.Check(static_cast<int>(laid.box.FreeCoordinates().size()));
   } catch (const std::invalid_argument& error) {
     throw InputError(run.settings.model, 0, "cannot be sampled so", error.what());
   }
   options.progress = [&progress](int done, int total) {
     progress.Show(StageText("sampling the workspace", done, total));
   };
-  workspace.statistics = SampleWorkspace(
-      workspace.box, options,
-      ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, setting, workspace.characteristic_length_m)));
+  workspace.statistics =
+      SampleWorkspace(laid.box, options, ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, laid)));
   if (workspace.statistics.quantities.empty()) return workspace;
   const QuantityStatistics& determinant = workspace.statistics.quantities[kDeterminantRow];
   workspace.crosses_singularity = (determinant.smallest_seen < 0 && determinant.largest_seen > 0) ||
@@ -165,14 +176,13 @@ Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressL
 }
 
 // Poses of the box that count, by Sobol's sequence.
-std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting& setting,
-                                       ProgressLine& progress) {
-  const Box box = BoxOf(run, setting);
+std::optional<Comparison> CompareInBox(const AccuracyRun& run, const LaidBox& laid, ProgressLine& progress) {
+  const Box& box = laid.box;
   const auto dimension = static_cast<int>(box.FreeCoordinates().size());
   const Sampling sampling{SamplingRule::kSobol, kReplicates * 128 * kComparedSamples,
                           run.settings.sampling.seed};
   const Eigen::MatrixXd points = InBox(box, UnitCubePoints(sampling, dimension, 0).points);
-  const auto evaluate = ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, setting, LengthOf(run)));
+  const auto evaluate = ErrorEvaluator(run.robot.mechanism, EvaluatorOptions(run, laid));
   const BatchValues batch = evaluate(points);
   std::vector<std::string> names;
   std::vector<PoseAccuracy> poses;
@@ -187,31 +197,24 @@ std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting&
   std::vector<const PoseAccuracy*> compared(poses.size());
   std::transform(poses.begin(), poses.end(), compared.begin(),
                  [](const PoseAccuracy& pose) { return &pose; });
-  return ComparisonOver(fmt::format("{} poses of the box {}", poses.size(), OverText(run, setting, box)),
-                        names, compared);
+  return ComparisonOver(fmt::format("{} poses of the box {}", poses.size(), laid.over), names, compared);
 }
 
-// Over the first two coordinates that the box leaves free, the others as in the first pose or, where that is
-// outside, at the end of the box next to it.
-std::optional<ErrorMap> MapOf(const AccuracyRun& run, const BoxSetting& setting) {
-  const Box box = BoxOf(run, setting);
+std::optional<ErrorMap> MapOf(const AccuracyRun& run, const LaidBox& laid) {
+  const Box& box = laid.box;
   const std::vector<Eigen::Index> free = box.FreeCoordinates();
   if (free.size() < 2) return std::nullopt;
   ErrorMap map;
   map.axes = {static_cast<int>(free[0]), static_cast<int>(free[1])};
   map.first = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[0]], box.high[free[0]]);
   map.second = Eigen::VectorXd::LinSpaced(kMapPoints, box.low[free[1]], box.high[free[1]]);
-  map.held = BoxPose(run).coordinates.cwiseMax(box.low).cwiseMin(box.high);
-  WorkspaceErrorOptions options = EvaluatorOptions(run, setting, LengthOf(run));
+  map.held = laid.about.cwiseMax(box.low).cwiseMin(box.high);
+  WorkspaceErrorOptions options = EvaluatorOptions(run, laid);
   options.in_aspect_of_home = options.within_joint_ranges = false;
-  const BatchEvaluator anywhere = ErrorEvaluator(run.robot.mechanism, options);
-  options.within_joint_ranges = true;
-  const BatchEvaluator in_reach = ErrorEvaluator(run.robot.mechanism, options);
-  if (setting.is_reachable) NarrowToReach(in_reach, map);
+  if (laid.setting.is_reachable) NarrowToReach(run, map);
   const Eigen::MatrixXd points = MapPoints(map);
-  map.values = anywhere(points);
-  for (const PointState state : in_reach(points).states)
-    map.is_within_joint_ranges.push_back(state != PointState::kOutside);
+  map.values = ErrorEvaluator(run.robot.mechanism, options)(points);
+  map.is_within_joint_ranges = AreWithinJointRanges(run, points);
   return map;
 }
 

@@ -9,12 +9,16 @@
 
 namespace legible {
 
-// All three lie about the first pose of the run that the robot can take, and throw InputError where the box
-// cannot be laid or sampled as asked.
-Workspace SampleBox(const AccuracyRun& run, const BoxSetting& setting, ProgressLine& progress);
-std::optional<Comparison> CompareInBox(const AccuracyRun& run, const BoxSetting& setting,
-                                       ProgressLine& progress);
-std::optional<ErrorMap> MapOf(const AccuracyRun& run, const BoxSetting& setting);
+// Throws InputError where the box cannot be laid as asked.
+LaidBox LayBox(const AccuracyRun& run, const BoxSetting& setting);
+
+// Throws InputError where the box cannot be sampled as asked.
+Workspace SampleBox(const AccuracyRun& run, const LaidBox& laid, ProgressLine& progress);
+std::optional<Comparison> CompareInBox(const AccuracyRun& run, const LaidBox& laid, ProgressLine& progress);
+
+// Over the first two coordinates that the box leaves free, the others as in the pose it lies about or, where
+// that is outside, at the end of the box next to it. Nothing where less than two are free.
+std::optional<ErrorMap> MapOf(const AccuracyRun& run, const LaidBox& laid);
 
 // Of poses with errors; nothing for less than three.
 std::optional<Comparison> ComparisonOver(const std::string& over, const std::vector<std::string>& names,

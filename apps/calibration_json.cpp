@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/json_text.h"
 #include "apps/judgement.h"
 #include "apps/program.h"
 
@@ -14,10 +15,6 @@ using nlohmann::ordered_json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kLeastCoefficients = 5;  // of the distortion, also where the lens has none
-
-ordered_json List(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  return std::vector<double>(values.data(), values.data() + values.size());
-}
 
 ordered_json OrNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();

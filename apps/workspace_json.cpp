@@ -83,10 +83,10 @@ ordered_json WorkspaceJson(const Workspace& workspace, const AccuracySettings& s
   }
   ordered_json gci = nullptr;
   if (!found.quantities.empty()) gci = EnclosureJson(found.quantities[kInverseConditionRow].mean, 1);
-  return {{"over", workspace.over},
+  return {{"over", workspace.laid.over},
           {"measure", "uniform in the coordinates named"},
-          {"box", BoxJson(workspace.box, units)},
-          {"characteristic_length", units.Length(workspace.characteristic_length_m)},
+          {"box", BoxJson(workspace.laid.box, units)},
+          {"characteristic_length", units.Length(workspace.laid.characteristic_length_m)},
           {"rule", ToString(settings.sampling.rule)},
           {"samples", found.samples},
           {"replicates", found.replicates},

@@ -56,6 +56,11 @@ std::vector<int> JointsOutOfRange(const Mechanism& mechanism, const Eigen::Vecto
   return joints;
 }
 
+bool IsReachable(const Mechanism& mechanism, const Rigid3& base_from_platform) {
+  return CanTake(mechanism, base_from_platform) &&
+         JointsOutOfRange(mechanism, JointReadingsOf(mechanism, base_from_platform)).empty();
+}
+
 std::vector<LegShape> LegShapesOf(const Mechanism& mechanism) {
   return std::visit(
       [](const auto& robot) {

@@ -29,6 +29,9 @@ std::vector<std::array<double, 2>> JointRangesOf(const Mechanism& mechanism);  /
 // Joints, from 0, whose readings (m) lie outside their ranges.
 std::vector<int> JointsOutOfRange(const Mechanism& mechanism, const Eigen::VectorXd& readings_m);
 
+// Whether the mechanism can take the pose with all joints in their ranges.
+bool IsReachable(const Mechanism& mechanism, const Rigid3& base_from_platform);
+
 // Joints and radii of the legs, to draw them and to bound where the platform can go.
 struct LegShape {
   Eigen::Vector3d base_joint_m, platform_joint_m;
