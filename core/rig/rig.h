@@ -1,0 +1,50 @@
+// A robot with its camera, as a program drives it: what hardware implements and what the simulated rig is.
+#pragma once
+
+#include <stdexcept>
+
+#include "core/geometry/rigid3.h"
+#include "core/vision/gray_image.h"
+
+namespace legible {
+
+// The rig does not answer any more. Whoever catches it stops: the rig itself has done what it can.
+class RigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct StampedImage {
+  double time_s = 0;  // of the exposure, by the rig's clock
+  GrayImage image;
+};
+
+struct StampedReadings {
+  double time_s = 0;  // of the measurement, by the rig's clock
+  Vector6d joint_readings_m = Vector6d::Zero();
+};
+
+// One thread at a time. Every call but Stop may throw RigError.
+class Rig {
+ public:
+  Rig() = default;
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
+  virtual ~Rig() = default;
+
+  // The rig's clock, s.
+  virtual double Now() = 0;
+  // Returns at that time of the rig's clock; at once if it is past.
+  virtual void WaitUntil(double time_s) = 0;
+
+  // The newest there is: the same one again, with the same stamp, where nothing newer has come.
+  virtual StampedImage Grab() = 0;
+  virtual StampedReadings ReadJoints() = 0;
+
+  // Speeds of the joint readings (m/s), kept until the next command.
+  virtual void CommandSpeeds(const Vector6d& joint_speeds_m_per_s) = 0;
+  // All joints to rest, whatever state the rig is in; may be called again.
+  virtual void Stop() noexcept = 0;
+};
+
+}  // namespace legible

@@ -1,0 +1,91 @@
+// What a simulated rig is like. The section `simulation` of a model.yaml says it in a file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/rigid3.h"
+#include "core/robots/gough_stewart.h"
+
+namespace legible {
+
+// Drives and encoders of the joints.
+struct DriveOptions {
+  double lag_s = 0.02;               // time constant with which a speed follows its command; 0: at once
+  double speed_limit_m_per_s = 0.1;  // a command beyond is cut off, joint by joint
+  // Friction: a joint at rest begins to move only when commanded faster than the breakaway speed; one that
+  // moves loses the sliding speed of its command, and sticks when nothing is left. Both depend on the
+  // configuration: they vary by the share `friction_variation` of themselves with each joint's length.
+  double breakaway_speed_m_per_s = 0;
+  double sliding_loss_m_per_s = 0;
+  double friction_variation = 0.5;
+  double friction_period_m = 0.03;  // of joint length over which the friction varies once
+  double reading_step_m = 1e-6;     // quantisation of the readings; 0: none
+  double reading_noise_m = 0;       // 1 sigma, before quantisation
+};
+
+// Light, surfaces and sensor of the simulated camera.
+struct SceneOptions {
+  double blur_px = 0.8;   // standard deviation of the lens's Gaussian; the pixels' own extent is added
+  double noise_grey = 2;  // standard deviation of a pixel, grey levels
+  double ambient = 0.25;  // share of the light that comes from everywhere
+  Eigen::Vector3d light_in_base{-0.3, 0.8, 1.5};  // towards the main light, far away; any length
+  double leg_grey = 190;                          // brightness where the light falls perpendicularly
+  double plate_grey = 70;
+  double joint_grey = 110;
+  double ground_grey = 60;
+  double texture_grey = 6;  // of the ground: standard deviation of smooth blotches
+};
+
+enum class FaultKind {
+  kFramesDropped,  // no new image comes
+  kFramesLate,     // images come delay_s late
+  kFramesFrozen,   // the same image comes again and again with new stamps
+  kLegCovered,     // something stands before a leg
+  kReadingsNan,
+  kReadingsFrozen,  // the same readings again and again with new stamps
+  kLinkLost,        // every call fails
+};
+
+// "frames-dropped", … as files name them.
+inline const std::vector<std::pair<FaultKind, std::string>> kFaultNames = {
+    {FaultKind::kFramesDropped, "frames-dropped"}, {FaultKind::kFramesLate, "frames-late"},
+    {FaultKind::kFramesFrozen, "frames-frozen"},   {FaultKind::kLegCovered, "leg-covered"},
+    {FaultKind::kReadingsNan, "readings-nan"},     {FaultKind::kReadingsFrozen, "readings-frozen"},
+    {FaultKind::kLinkLost, "link-lost"},
+};
+
+struct Fault {
+  FaultKind kind = FaultKind::kFramesDropped;
+  double from_s = 0;
+  double until_s = 1e9;
+  int leg = 0;           // 0-based: of kLegCovered
+  double delay_s = 0.2;  // of kFramesLate
+
+  bool IsActiveAt(double time_s) const { return time_s >= from_s && time_s < until_s; }
+};
+
+struct SimulationOptions {
+  double period_s = 0.02;  // of the camera and of whoever drives: the step of the simulated clock
+  DriveOptions drives;
+  SceneOptions scene;
+  double edge_noise_px = 0.05;  // image-free: 1 sigma of each end of an edge, across it
+  std::vector<Fault> faults;
+  std::uint64_t seed = 1;       // of all noise
+  std::optional<Rigid3> start;  // base_from_platform in the beginning; none: the robot's home
+
+  void Check() const;  // throws std::invalid_argument that names the field out of its range
+};
+
+// A rig as it really is.
+struct SimulationTruth {
+  GoughStewart robot;
+  Camera camera;
+  Rigid3 camera_from_base;
+};
+
+}  // namespace legible
