@@ -61,14 +61,13 @@ bool HasLeft(const LegVectors& start, const LegVectors& now) {
   return !(travel_m.colwise().norm().maxCoeff() <= start.length_m.maxCoeff());
 }
 
-// Root mean square distance of the platform joints from the platform's origin.
+}  // namespace
+
 double PlatformRadius(const GoughStewart& robot) {
   double sum_m2 = 0;
   for (const Leg& leg : robot.legs) sum_m2 += leg.platform_joint_m.squaredNorm();
   return std::sqrt(sum_m2 / kLegCount);
 }
-
-}  // namespace
 
 Vector6d InverseKinematics(const GoughStewart& robot, const Rigid3& base_from_platform) {
   return LegVectorsAt(robot, base_from_platform).length_m - JointOffsets(robot);

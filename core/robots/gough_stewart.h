@@ -26,6 +26,10 @@ struct GoughStewart {
   std::array<Leg, kLegCount> legs;
 };
 
+// Root mean square distance of the platform joints from the platform's origin, m: by what a rotation is made
+// comparable to a displacement.
+double PlatformRadius(const GoughStewart& robot);
+
 // Joint readings |B_i - A_i| - offset_i (m) that put the platform at base_from_platform.
 Vector6d InverseKinematics(const GoughStewart& robot, const Rigid3& base_from_platform);
 

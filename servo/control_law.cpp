@@ -1,0 +1,357 @@
+#include "servo/control_law.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/geometry/tangents.h"
+#include "servo/interaction.h"
+
+namespace legible {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Two numbers say where an edge or a direction is; where no noise is given they weigh as if it were this, in
+// half image widths or rad.
+constexpr double kLeastSigma = 1e-6;
+
+// Rows of a task, gathered.
+struct Task {
+  TaskMatrix interaction;  // by the paper's twist
+  TaskVector error;
+  int rows = 0;
+
+  Task() : interaction(kMostTaskRows, 6), error(kMostTaskRows) {}
+
+  // Two rows, whitened if they are weighted.
+  void Add(const Eigen::Matrix<double, 2, 6>& derivative, const Eigen::Vector2d& value) {
+    interaction.middleRows<2>(rows) = derivative;
+    error.segment<2>(rows) = value;
+    rows += 2;
+  }
+};
+
+// What a law knows of the robot at the moment.
+struct Situation {
+  const ServoModel& model;
+  const ServoGoal& goal;
+  const ControlLawOptions& options;
+  EdgesByLeg seen;  // of the legs that are looked at
+  Vector6d length_m;
+  LegDirections directions;  // for the interaction matrices
+};
+
+double Rms(double squares, int count) { return count > 0 ? std::sqrt(squares / count) : kNan; }
+
+// Distance of the line with that outline normal from an image point (normalised coordinates), px, and its
+// standard deviation.
+struct LineOffset {
+  double offset_px, sigma_px;
+};
+LineOffset OffsetAt(const ServoModel& model, const SeenEdge& seen, const Eigen::Vector2d& point) {
+  const Eigen::Vector3d x = point.homogeneous();
+  const double scale = model.focal_px / seen.normal.head<2>().norm();
+  return {scale * seen.normal.dot(x), scale * std::sqrt(std::max(0.0, x.dot(seen.normal_covariance * x)))};
+}
+
+struct ImageErrors {
+  double edge_px, edge_noise_px, direction_rad, direction_noise_rad;
+};
+ImageErrors MeasureErrors(const Situation& now) {
+  double edge2 = 0, edge_noise2 = 0, direction2 = 0, direction_noise2 = 0;
+  int ends = 0, legs = 0;
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    for (size_t edge = 0; edge < 2; ++edge) {
+      const auto &seen = now.seen[leg][edge], &goal = now.goal.edges[leg][edge];
+      if (!seen || !goal) continue;
+      for (const Eigen::Vector2d& end : goal->ends) {
+        const LineOffset offset = OffsetAt(now.model, *seen, end);
+        edge2 += offset.offset_px * offset.offset_px;
+        edge_noise2 += offset.sigma_px * offset.sigma_px;
+        ++ends;
+      }
+    }
+    const auto& [edge_1, edge_2] = now.seen[leg];
+    if (!edge_1 || !edge_2 || !now.goal.directions[leg]) continue;
+    const Eigen::Vector3d u = DirectionFromEdges(edge_1->normal, edge_2->normal);
+    const double angle =
+        std::atan2(u.cross(*now.goal.directions[leg]).norm(), u.dot(*now.goal.directions[leg]));
+    direction2 += angle * angle;
+    direction_noise2 += DirectionCovariance(*edge_1, *edge_2).trace();
+    ++legs;
+  }
+  return {Rms(edge2, ends), Rms(edge_noise2, ends), Rms(direction2, legs), Rms(direction_noise2, legs)};
+}
+
+EdgesByLeg OfLegs(const SeenEdges& seen, const std::bitset<kLegCount>& legs) {
+  EdgesByLeg edges = ByLeg(seen);
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    if (!legs[leg]) edges[leg] = {};
+  return edges;
+}
+
+LegDirections DirectionsOf(const ServoModel& model, const Rigid3& base_from_platform) {
+  LegDirections directions;
+  for (size_t i = 0; i < kLegCount; ++i)
+    directions.col(static_cast<Eigen::Index>(i)) =
+        (model.camera_from_base * (base_from_platform * model.robot.legs[i].platform_joint_m) -
+         model.base_joint_in_camera_m[i])
+            .normalized();
+  return directions;
+}
+
+void UseSeenDirections(Situation& now) {
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    const auto& [edge_1, edge_2] = now.seen[leg];
+    if (edge_1 && edge_2)
+      now.directions.col(static_cast<Eigen::Index>(leg)) = DirectionFromEdges(edge_1->normal, edge_2->normal);
+  }
+}
+
+// Divides both rows by the square root of their covariance; leaves them where all count alike.
+void Whiten(const Eigen::Matrix2d& covariance, const ControlLawOptions& options,
+            Eigen::Matrix<double, 2, 6>& derivative, Eigen::Vector2d& value) {
+  if (!options.is_weighted) return;
+  Eigen::Matrix2d regular = covariance;
+  regular.diagonal().array() += kLeastSigma * kLeastSigma;
+  const Eigen::LLT<Eigen::Matrix2d> root(regular);
+  derivative = root.matrixL().solve(derivative).eval();
+  value = root.matrixL().solve(value).eval();
+}
+
+// e = seen x goal of one edge in the pixel frame and its interaction (eq. 37-39), in the two directions
+// across the goal's line, where all of it lies.
+void AddEdge(const Situation& now, const SeenEdge& seen, const SeenEdge& goal, Task& task) {
+  const auto leg = static_cast<size_t>(seen.leg);
+  // The interaction matrix takes the direction to lie in the edge's plane.
+  const Eigen::Vector3d u = now.directions.col(seen.leg);
+  const Eigen::Vector3d in_plane = (u - seen.normal * seen.normal.dot(u)).normalized();
+  const Eigen::Vector3d& a = now.model.base_joint_in_camera_m[leg];
+  const ImageLine line = ToImage(now.model, seen.normal), goal_line = ToImage(now.model, goal.normal);
+  const Eigen::Matrix<double, 3, 2> across = TangentsOf(goal_line.line);
+  const Eigen::Matrix<double, 2, 3> by_normal = -across.transpose() * Skew(goal_line.line) * line.d_normal;
+  Eigen::Matrix<double, 2, 6> derivative = by_normal * EdgeByDirection(a, in_plane, seen.normal) *
+                                           DirectionInteraction(a, in_plane, now.length_m[seen.leg]);
+  Eigen::Vector2d value = across.transpose() * line.line.cross(goal_line.line);
+  Whiten(by_normal * seen.normal_covariance * by_normal.transpose(), now.options, derivative, value);
+  task.Add(derivative, value);
+}
+
+// e = u x u* of one leg (section 3.1.1), likewise.
+void AddDirection(const Situation& now, const SeenEdge& edge_1, const SeenEdge& edge_2,
+                  const Eigen::Vector3d& goal, Task& task) {
+  const auto leg = static_cast<size_t>(edge_1.leg);
+  const Eigen::Vector3d seen = DirectionFromEdges(edge_1.normal, edge_2.normal);
+  const Eigen::Matrix<double, 3, 2> across = TangentsOf(goal);
+  const Eigen::Matrix<double, 2, 3> by_direction = -across.transpose() * Skew(goal);
+  Eigen::Matrix<double, 2, 6> derivative =
+      by_direction * DirectionInteraction(now.model.base_joint_in_camera_m[leg],
+                                          now.directions.col(edge_1.leg), now.length_m[edge_1.leg]);
+  Eigen::Vector2d value = across.transpose() * seen.cross(goal);
+  Whiten(by_direction * DirectionCovariance(edge_1, edge_2) * by_direction.transpose(), now.options,
+         derivative, value);
+  task.Add(derivative, value);
+}
+
+Task TaskOf(const Situation& now, LawResult& result) {
+  Task task;
+  const bool by_edges = now.options.mode == ControlMode::kEdges;
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    const auto& seen = now.seen[leg];
+    const int rows_before = task.rows;
+    if (by_edges) {
+      for (size_t edge = 0; edge < 2; ++edge)
+        if (seen[edge] && now.goal.edges[leg][edge])
+          AddEdge(now, *seen[edge], *now.goal.edges[leg][edge], task);
+      result.edges += (task.rows - rows_before) / 2;
+    } else if (seen[0] && seen[1] && now.goal.directions[leg]) {
+      AddDirection(now, *seen[0], *seen[1], *now.goal.directions[leg], task);
+      result.edges += 2;
+    }
+    result.legs += task.rows > rows_before;
+  }
+  task.interaction.conservativeResize(task.rows, 6);
+  task.error.conservativeResize(task.rows);
+  return task;
+}
+
+// Makes v and rotations of the platform at its radius one unit.
+Vector6d RotationsByRadius(const ServoModel& model) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / model.platform_radius_m);
+  return scale;
+}
+
+// The paper's twist by one whose v is that at the platform's origin, in these units: singular values then do
+// not depend on where the camera stands.
+Matrix6d TwistByPlatformMotion(const ServoModel& model, const Rigid3& base_from_platform) {
+  const Eigen::Vector3d origin_in_camera = model.camera_from_base * base_from_platform.translation;
+  Matrix6d twist = Matrix6d::Identity();
+  twist.topRightCorner<3, 3>() = Skew(origin_in_camera);
+  return twist * RotationsByRadius(model).asDiagonal();
+}
+
+// The twist that the features ask for, as joint motion: -J L^+ e.
+void ServoFeatures(const Situation& now, LawResult& result) {
+  Task task = TaskOf(now, result);
+  if (task.rows < 6) {
+    result.status = LawStatus::kTooFewEdges;
+    return;
+  }
+  const Matrix6d twist = TwistByPlatformMotion(now.model, result.base_from_platform);
+  task.interaction *= twist;
+  const LeastSquares squares = SolveLeastSquares(task.interaction, task.error, now.options.inverse);
+  result.singular_values = squares.singular_values;
+  result.rank = squares.rank;
+  if (!(result.Conditioning() >= now.options.least_conditioning)) {
+    result.status = LawStatus::kIllConditionedEdges;
+    return;
+  }
+  const Matrix6d inverse_jacobian = CameraInverseJacobian(now.model, now.directions) * twist;
+  result.to_go_m = -inverse_jacobian * squares.solution;
+  result.metric = squares.triangle * inverse_jacobian.inverse();
+}
+
+void ServoPose(const Situation& now, const Rigid3& base_from_platform, LawResult& result) {
+  const Vector6d scale = RotationsByRadius(now.model);
+  const Vector6d to_go =
+      scale.cwiseInverse().cwiseProduct(Displacement(base_from_platform, *now.goal.base_from_platform));
+  const Matrix6d jacobian = InverseJacobian(now.model.robot, base_from_platform) * scale.asDiagonal();
+  result.to_go_m = jacobian * to_go;
+  result.metric = jacobian.inverse();
+  result.error = to_go.norm();
+}
+
+void ServoPoseFromEdges(const Situation& now, const LawInput& input, LawResult& result) {
+  SeenEdges seen;
+  for (const SeenEdge& edge : input.seen.edges)
+    if (now.options.legs[static_cast<size_t>(edge.leg)]) seen.edges.push_back(edge);
+  result.edges = static_cast<int>(seen.edges.size());
+  const EdgePose pose =
+      FitPoseToEdges(now.model.robot, now.model.camera_from_base, seen, result.base_from_platform);
+  if (pose.status == EdgePoseStatus::kConverged) {
+    const Vector6d scale = RotationsByRadius(now.model).cwiseInverse();
+    result.error_noise = std::sqrt((scale.asDiagonal() * pose.covariance * scale.asDiagonal()).trace());
+    ServoPose(now, pose.base_from_platform, result);
+    return;
+  }
+  result.status =
+      pose.status == EdgePoseStatus::kTooFewEdges ? LawStatus::kTooFewEdges : LawStatus::kNoPoseFromEdges;
+}
+
+// How far the robot is from a singularity, and where it is; false where it cannot be driven from there.
+bool JudgeRobot(const ServoModel& model, const LawInput& input, const ControlLawOptions& options,
+                LawResult& result) {
+  result.base_from_platform = input.guess_base_from_platform;
+  if (!input.joint_readings_m.allFinite()) {
+    result.status = LawStatus::kBadReadings;
+    return false;
+  }
+  const auto forward = ForwardKinematics(model.robot, input.joint_readings_m, input.guess_base_from_platform);
+  if (forward.status != ForwardKinematicsStatus::kConverged) {
+    result.status =
+        forward.status == ForwardKinematicsStatus::kSingular ? LawStatus::kRobotSingular : LawStatus::kNoPose;
+    return false;
+  }
+  result.base_from_platform = forward.base_from_platform;
+  const TaskMatrix jacobian =
+      InverseJacobian(model.robot, forward.base_from_platform) * RotationsByRadius(model).asDiagonal();
+  const LeastSquares squares = SolveLeastSquares(jacobian, TaskVector::Zero(6), {});
+  result.singular_values = squares.singular_values;
+  result.rank = squares.rank;
+  result.robot_conditioning = result.Conditioning();
+  if (result.robot_conditioning >= options.least_robot_conditioning) return true;
+  result.status = LawStatus::kRobotSingular;
+  return false;
+}
+
+}  // namespace
+
+const char* ToString(ControlMode mode) {
+  switch (mode) {
+    case ControlMode::kEdges:
+      return "edges";
+    case ControlMode::kDirections:
+      return "directions";
+    case ControlMode::kPose:
+      return "pose";
+    case ControlMode::kJoints:
+      return "joints";
+  }
+  throw std::invalid_argument("ToString: not a ControlMode");
+}
+
+const char* UnitOf(ControlMode mode) {
+  if (mode == ControlMode::kEdges) return "px";
+  return mode == ControlMode::kDirections ? "rad" : "m";
+}
+
+void ControlLawOptions::Check() const {
+  inverse.Check();
+  if (legs.none()) throw std::invalid_argument("ControlLawOptions: no leg is looked at");
+  if (!(least_conditioning >= 0 && least_conditioning < 1) ||
+      !(least_robot_conditioning >= 0 && least_robot_conditioning < 1))
+    throw std::invalid_argument("ControlLawOptions: the least conditioning must be in [0, 1)");
+}
+
+void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
+  const auto demand = [](bool is_there, const char* what) {
+    if (!is_there) throw std::invalid_argument(what);
+  };
+  if (options.mode == ControlMode::kPose)
+    demand(goal.base_from_platform.has_value(),
+           "the goal's edges lead to no pose, which the mode pose needs");
+  if (options.mode == ControlMode::kJoints)
+    demand(goal.joint_readings_m.has_value(),
+           "the goal's edges lead to no joint readings, which the mode joints needs");
+  int legs = 0;
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    const bool has_edges = goal.edges[leg][0] || goal.edges[leg][1];
+    const bool counts =
+        options.mode == ControlMode::kDirections ? goal.directions[leg].has_value() : has_edges;
+    legs += options.legs[leg] && counts;
+  }
+  const bool looks = options.mode == ControlMode::kEdges || options.mode == ControlMode::kDirections;
+  if (looks) demand(legs >= 3, "the goal shows fewer than three of the legs that are looked at");
+}
+
+LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
+                      const ControlLawOptions& options) {
+  LawResult result;
+  Situation now{model, goal, options, OfLegs(input.seen, options.legs), {}, {}};
+  const ImageErrors errors = MeasureErrors(now);
+  result.edge_error_px = errors.edge_px;
+  result.direction_error_rad = errors.direction_rad;
+  result.error = kNan;
+  if (!JudgeRobot(model, input, options, result)) return result;
+  now.length_m = LegLengths(model.robot, input.joint_readings_m);
+  now.directions = DirectionsOf(model, result.base_from_platform);
+  if (options.direction_source == DirectionSource::kEdges) UseSeenDirections(now);
+  switch (options.mode) {
+    case ControlMode::kEdges:
+      result.error = errors.edge_px;
+      result.error_noise = errors.edge_noise_px;
+      ServoFeatures(now, result);
+      break;
+    case ControlMode::kDirections:
+      result.error = errors.direction_rad;
+      result.error_noise = errors.direction_noise_rad;
+      ServoFeatures(now, result);
+      break;
+    case ControlMode::kPose:
+      if (options.pose_source == PoseSource::kReadings)
+        ServoPose(now, result.base_from_platform, result);
+      else
+        ServoPoseFromEdges(now, input, result);
+      break;
+    case ControlMode::kJoints:
+      result.to_go_m = *goal.joint_readings_m - input.joint_readings_m;
+      result.error = result.to_go_m.cwiseAbs().maxCoeff();
+      break;
+  }
+  return result;
+}
+
+}  // namespace legible

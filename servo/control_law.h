@@ -1,0 +1,102 @@
+// The control laws: how far each joint still has to go, as the edges, directions, pose or readings say.
+#pragma once
+
+#include <Eigen/Core>
+#include <bitset>
+#include <string>
+#include <vector>
+
+#include "core/rig/rig.h"
+#include "core/vision/seen_edges.h"
+#include "servo/pseudo_inverse.h"
+#include "servo/servo_goal.h"
+#include "servo/servo_model.h"
+
+namespace legible {
+
+enum class ControlMode {
+  kEdges,       // edges in the image (Andreff, Dallej, Martinet 2007, eq. 17-41)
+  kDirections,  // directions of the legs, from both edges of each (the same, section 3.1.1)
+  kPose,        // the platform's pose
+  kJoints,      // the joint readings
+};
+// "edges", "directions", "pose", "joints".
+const char* ToString(ControlMode mode);
+
+enum class PoseSource {
+  kReadings,  // forward kinematics
+  kEdges,     // the pose that fits the edges best
+};
+
+// Where the legs' directions in the interaction matrices come from.
+enum class DirectionSource {
+  kEdges,  // both edges of the leg, as in the paper; of a leg that shows one only, the model
+  kModel,  // forward kinematics of the readings
+};
+
+struct ControlLawOptions {
+  ControlMode mode = ControlMode::kEdges;
+  PoseSource pose_source = PoseSource::kReadings;
+  DirectionSource direction_source = DirectionSource::kModel;
+  std::bitset<kLegCount> legs = std::bitset<kLegCount>().set();  // that are looked at
+  bool is_weighted = true;  // by each edge's covariance; false: all alike, as in the paper
+  PseudoInverseOptions inverse;
+  // Of what is seen, smallest over largest singular value (rotations by the platform's radius): less is no
+  // ground to move on.
+  double least_conditioning = 1e-3;
+  // The same of the robot's inverse Jacobian.
+  double least_robot_conditioning = 0.01;
+
+  void Check() const;  // throws std::invalid_argument
+};
+
+enum class LawStatus {
+  kOk,
+  kBadReadings,          // not numbers
+  kNoPose,               // the readings belong to no pose near the last one
+  kRobotSingular,        // closer to a singularity than least_robot_conditioning
+  kTooFewEdges,          // of legs that the goal has too
+  kIllConditionedEdges,  // less than least_conditioning
+  kNoPoseFromEdges,
+};
+
+struct LawInput {
+  SeenEdges seen;
+  Vector6d joint_readings_m = Vector6d::Zero();
+  // How far the joints may have moved since these readings were true: ranges are kept either way.
+  Vector6d way_since_readings_m = Vector6d::Zero();
+  Rigid3 guess_base_from_platform;  // where forward kinematics starts
+};
+
+// What each law says; `error` and its noise are in the law's own unit (UnitOf).
+struct LawResult {
+  LawStatus status = LawStatus::kOk;
+  // The joints' way to the goal, m: the commanded speeds are this times the gain. Zero unless kOk.
+  Vector6d to_go_m = Vector6d::Zero();
+  // Way that differs from it by d costs |metric d|^2 more: what a step that a limit forces aside trades by.
+  Matrix6d metric = Matrix6d::Identity();
+  double error = 0;         // root mean square of what is controlled
+  double error_noise = 0;   // of that, what noise alone leaves, by the edges' covariances
+  int legs = 0, edges = 0;  // that take part
+  int rank = 0;
+  Vector6d singular_values = Vector6d::Zero();  // of what is seen (or of the inverse Jacobian), descending
+  double robot_conditioning = 0;                // smallest over largest singular value, rotations scaled
+  Rigid3 base_from_platform;                    // by the readings
+  double edge_error_px = 0;        // rms over the ends of all edges that goal and image share; NaN: none
+  double direction_error_rad = 0;  // rms over the legs; NaN: none
+
+  double Conditioning() const { return singular_values[5] / singular_values[0]; }
+};
+
+// "px", "rad" or "m": of the error that a law controls. A pose's is its displacement, rotations by the
+// platform's radius.
+const char* UnitOf(ControlMode mode);
+
+// Throws std::invalid_argument, in words for the user, where the goal does not say what the mode needs.
+void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options);
+
+// Depends on nothing but what it is given. Allocates nothing.
+LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
+                      const ControlLawOptions& options);
+
+}  // namespace legible

@@ -1,0 +1,75 @@
+#include "servo/servo_loop.h"
+
+#include <stdexcept>
+
+#include "core/stopwatch.h"
+
+namespace legible {
+namespace {
+
+// Leaves the rig at rest, however its scope is left.
+class AtRestInTheEnd {
+ public:
+  explicit AtRestInTheEnd(Rig& rig) : rig_(rig) {}
+  AtRestInTheEnd(const AtRestInTheEnd&) = delete;
+  AtRestInTheEnd& operator=(const AtRestInTheEnd&) = delete;
+  ~AtRestInTheEnd() { rig_.Stop(); }
+
+ private:
+  Rig& rig_;
+};
+
+ServoCycle RunCycle(Rig& rig, EdgeSource& source, ServoController& controller, const Vector6d& commanded) {
+  ServoCycle cycle;
+  cycle.input.readings = rig.ReadJoints();
+  const StampedReadings& readings = cycle.input.readings;
+  Stopwatch watch;
+  cycle.input.seen = source.See({readings.time_s, readings.joint_readings_m, commanded});
+  cycle.look_s = watch.Lap();
+  cycle.input.time_s = rig.Now();
+  watch.Lap();
+  cycle.output = controller.Cycle(cycle.input);
+  cycle.law_s = watch.Lap();
+  return cycle;
+}
+
+}  // namespace
+
+void ServoLoopOptions::Check() const {
+  if (!(period_s > 0)) throw std::invalid_argument("ServoLoopOptions: period_s must be positive");
+}
+
+ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& options,
+                  const std::function<void(const ServoCycle&)>& record) {
+  options.Check();
+  const AtRestInTheEnd at_rest(rig);
+  ServoRun run;
+  const auto take = [&run](const Verdict& verdict) {
+    run.end = verdict.end;
+    run.reason = verdict.reason;
+  };
+  try {
+    const double start_s = rig.Now();
+    Vector6d commanded = Vector6d::Zero();
+    while (run.end == ServoEnd::kRunning) {
+      const ServoCycle cycle = RunCycle(rig, source, controller, commanded);
+      commanded = cycle.output.joint_speeds_m_per_s;
+      take(cycle.output.verdict);
+      if (run.end == ServoEnd::kRunning)
+        rig.CommandSpeeds(commanded);
+      else
+        rig.Stop();
+      ++run.cycles;
+      run.time_s = cycle.input.time_s - start_s;
+      record(cycle);
+      if (run.end == ServoEnd::kRunning && options.is_stopped())
+        take(controller.End(ServoEnd::kStoppedByUser, "stopped by the user"));
+      if (run.end == ServoEnd::kRunning) rig.WaitUntil(start_s + run.cycles * options.period_s);
+    }
+  } catch (const RigError& error) {
+    take(controller.End(ServoEnd::kLinkLost, std::string("the rig does not answer: ") + error.what()));
+  }
+  return run;
+}
+
+}  // namespace legible

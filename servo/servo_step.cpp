@@ -1,0 +1,134 @@
+#include "servo/servo_step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace legible {
+namespace {
+
+// 0 at `least` or below, 1 from `slow` times it on.
+double FactorNear(double conditioning, double least, double slow) {
+  if (least <= 0) return 1;
+  return std::clamp((conditioning / least - 1) / (slow - 1), 0.0, 1.0);
+}
+
+void SlowNearSingularity(const ServoStepOptions& options, ServoStep& step) {
+  const LawResult& law = step.law;
+  const double robot =
+      FactorNear(law.robot_conditioning, options.law.least_robot_conditioning, options.slow_conditioning);
+  const bool looks = options.law.mode == ControlMode::kEdges || options.law.mode == ControlMode::kDirections;
+  const double sight =
+      looks ? FactorNear(law.Conditioning(), options.law.least_conditioning, options.slow_conditioning) : 1;
+  step.singularity_factor = std::min(robot, sight);
+  step.is_robot_near_singularity = robot < sight;
+  step.joint_speeds_m_per_s *= step.singularity_factor;
+}
+
+void KeepRanges(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
+                ServoStep& step) {
+  Vector6d& speeds = step.joint_speeds_m_per_s;
+  const SpeedBounds bounds =
+      BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  const bool is_free =
+      (speeds.array() >= bounds.lowest.array()).all() && (speeds.array() <= bounds.highest.array()).all();
+  if (is_free) return;
+  speeds = NearestWithin(bounds, step.law.metric, speeds);
+  for (int i = 0; i < kLegCount; ++i) {
+    step.at_shortest[static_cast<size_t>(i)] = speeds[i] <= bounds.lowest[i];
+    step.at_longest[static_cast<size_t>(i)] = speeds[i] >= bounds.highest[i];
+  }
+}
+
+void KeepSpeeds(const JointLimitOptions& limits, ServoStep& step) {
+  int fastest = 0;
+  const double largest = step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(&fastest);
+  if (largest <= limits.speed_limit_m_per_s) return;
+  step.speed_factor = limits.speed_limit_m_per_s / largest;
+  step.fastest_leg = fastest;
+  step.joint_speeds_m_per_s *= step.speed_factor;
+  // Rounding must not lead beyond the limit.
+  step.joint_speeds_m_per_s =
+      step.joint_speeds_m_per_s.cwiseMax(-limits.speed_limit_m_per_s).cwiseMin(limits.speed_limit_m_per_s);
+}
+
+}  // namespace
+
+void ServoStepOptions::Check() const {
+  law.Check();
+  gain.Check();
+  limits.Check();
+  if (!(slow_conditioning > 1))
+    throw std::invalid_argument("ServoStepOptions: slow_conditioning must be over 1");
+}
+
+ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
+                       const ServoStepOptions& options) {
+  ServoStep step;
+  step.law = EvaluateLaw(model, goal, input, options.law);
+  if (step.law.status != LawStatus::kOk) return step;
+  step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
+  step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
+  SlowNearSingularity(options, step);
+  KeepRanges(model, input, options.limits, step);
+  KeepSpeeds(options.limits, step);
+  return step;
+}
+
+std::string LegList(const std::bitset<kLegCount>& legs) {
+  std::vector<std::string> numbers;
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    if (legs[leg]) numbers.push_back(std::to_string(leg + 1));
+  if (numbers.empty()) return "no leg";
+  std::string text = numbers.size() == 1 ? "leg " : "legs ";
+  for (size_t i = 0; i < numbers.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ") + numbers[i];
+  return text;
+}
+
+std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options) {
+  const LawResult& law = step.law;
+  switch (law.status) {
+    case LawStatus::kOk:
+      return "";
+    case LawStatus::kBadReadings:
+      return "the joint readings are not numbers";
+    case LawStatus::kNoPose:
+      return "the joint readings belong to no pose of the platform";
+    case LawStatus::kRobotSingular:
+      return fmt::format("the robot is at a singularity: conditioning {:.2g}, at least {:.2g} is asked for",
+                         law.robot_conditioning, options.least_robot_conditioning);
+    case LawStatus::kTooFewEdges:
+      return fmt::format("too few edges are seen: {} of {} legs, where three legs are needed", law.edges,
+                         law.legs);
+    case LawStatus::kIllConditionedEdges:
+      return fmt::format(
+          "the {} edges seen, of {} legs, leave a motion of the platform open: conditioning {:.2g}, at least "
+          "{:.2g} is asked for",
+          law.edges, law.legs, law.Conditioning(), options.least_conditioning);
+    case LawStatus::kNoPoseFromEdges:
+      return "no pose of the platform near the joint readings fits the edges";
+  }
+  throw std::invalid_argument("WhyNoSpeeds: not a LawStatus");
+}
+
+std::string DescribeLimits(const ServoStep& step) {
+  std::vector<std::string> clauses;
+  if (step.at_shortest.any()) clauses.push_back(LegList(step.at_shortest) + " held back at the shortest");
+  if (step.at_longest.any()) clauses.push_back(LegList(step.at_longest) + " held back at the longest");
+  if (step.speed_factor < 1)
+    clauses.push_back(fmt::format("all at {:.0f} % so that leg {} keeps its speed limit",
+                                  100 * step.speed_factor, step.fastest_leg + 1));
+  if (step.singularity_factor < 1)
+    clauses.push_back(fmt::format("slowed to {:.0f} % near a singularity of {}",
+                                  100 * step.singularity_factor,
+                                  step.is_robot_near_singularity ? "the robot" : "what is seen"));
+  std::string text;
+  for (const std::string& clause : clauses) text += (text.empty() ? "" : "; ") + clause;
+  return text;
+}
+
+}  // namespace legible

@@ -1,0 +1,329 @@
+#include "servo/supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace legible {
+namespace {
+
+constexpr double kTimeSlack_s = 1e-9;   // clocks are sums of periods
+constexpr double kFollowedShare = 0.2;  // of a commanded way that a drive makes at least if it follows
+constexpr double kLeastWay_m = 5e-5;    // that says anything about following
+
+bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
+  return std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
+                    [](const SeenEdge& one, const SeenEdge& other) {
+                      return one.leg == other.leg && one.edge == other.edge && one.normal == other.normal;
+                    });
+}
+
+// An image of a real camera never comes twice.
+bool HasNoise(const SeenEdges& seen) {
+  return std::any_of(seen.edges.begin(), seen.edges.end(),
+                     [](const SeenEdge& edge) { return edge.normal_covariance.trace() > 0; });
+}
+
+Verdict Ended(ServoEnd end, const std::string& reason) { return {end, reason, false, 0}; }
+
+// The leg commanded farthest.
+struct FarthestLeg {
+  int leg;
+  double way_m;
+};
+FarthestLeg Farthest(const Vector6d& way_m) {
+  FarthestLeg farthest{0, 0};
+  farthest.way_m = way_m.cwiseAbs().maxCoeff(&farthest.leg);
+  return farthest;
+}
+
+ServoEnd EndOf(LawStatus status) {
+  switch (status) {
+    case LawStatus::kOk:
+      break;
+    case LawStatus::kBadReadings:
+      return ServoEnd::kBadReadings;
+    case LawStatus::kNoPose:
+    case LawStatus::kNoPoseFromEdges:
+      return ServoEnd::kNoPose;
+    case LawStatus::kRobotSingular:
+      return ServoEnd::kRobotSingular;
+    case LawStatus::kTooFewEdges:
+      return ServoEnd::kTooFewEdges;
+    case LawStatus::kIllConditionedEdges:
+      return ServoEnd::kIllConditionedEdges;
+  }
+  return ServoEnd::kRunning;
+}
+
+}  // namespace
+
+const char* ToString(ServoEnd end) {
+  switch (end) {
+    case ServoEnd::kRunning:
+      return "running";
+    case ServoEnd::kConverged:
+      return "converged";
+    case ServoEnd::kBadReadings:
+      return "bad-readings";
+    case ServoEnd::kStaleReadings:
+      return "stale-readings";
+    case ServoEnd::kFrozenReadings:
+      return "frozen-readings";
+    case ServoEnd::kStaleImages:
+      return "stale-images";
+    case ServoEnd::kFrozenImages:
+      return "frozen-images";
+    case ServoEnd::kDrivesDoNotMove:
+      return "drives-do-not-move";
+    case ServoEnd::kTooFewEdges:
+      return "too-few-edges";
+    case ServoEnd::kIllConditionedEdges:
+      return "ill-conditioned-edges";
+    case ServoEnd::kRobotSingular:
+      return "robot-singular";
+    case ServoEnd::kNoPose:
+      return "no-pose";
+    case ServoEnd::kErrorGrows:
+      return "error-grows";
+    case ServoEnd::kStalled:
+      return "stalled";
+    case ServoEnd::kTimeout:
+      return "timeout";
+    case ServoEnd::kLinkLost:
+      return "link-lost";
+    case ServoEnd::kStoppedByUser:
+      return "stopped-by-user";
+  }
+  throw std::invalid_argument("ToString: not a ServoEnd");
+}
+
+double DefaultTolerance(ControlMode mode) {
+  switch (mode) {
+    case ControlMode::kEdges:
+      return 0.25;
+    case ControlMode::kDirections:
+      return 2e-3;
+    case ControlMode::kPose:
+      return 1e-4;
+    case ControlMode::kJoints:
+      return 5e-5;
+  }
+  throw std::invalid_argument("DefaultTolerance: not a ControlMode");
+}
+
+void SupervisorOptions::Check() const {
+  if (!(tolerance >= 0) || !(tolerance_in_noise >= 0))
+    throw std::invalid_argument("SupervisorOptions: tolerances must not be negative");
+  for (const double time_s : {dwell_s, stale_s, unusable_s, growth_s, stall_s, timeout_s})
+    if (!(time_s > 0)) throw std::invalid_argument("SupervisorOptions: times must be positive");
+  if (!(unanswered_m > 0) || !(growth_factor > 1) || !(growth_tolerances >= 0) ||
+      !(stall_share > 0 && stall_share < 1))
+    throw std::invalid_argument("SupervisorOptions: a threshold is out of its range");
+}
+
+Supervisor::Supervisor(const ControlLawOptions& law, const SupervisorOptions& options)
+    : law_(law), options_(options) {
+  options.Check();
+  if (options_.tolerance == 0) options_.tolerance = DefaultTolerance(law.mode);
+}
+
+bool Supervisor::Looks() const {
+  const bool by_readings = law_.mode == ControlMode::kJoints ||
+                           (law_.mode == ControlMode::kPose && law_.pose_source == PoseSource::kReadings);
+  return !by_readings;
+}
+
+void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s) {
+  if (!start_s_) {
+    start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
+    before_ = input;
+    return;
+  }
+  const Vector6d way_m = (input.time_s - before_->time_s) * commanded_m_per_s;
+  commanded_way_m_ += way_m;
+  way_since_readings_m_ += way_m;
+  way_since_images_m_ += way_m;
+  if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
+    readings_changed_s_ = input.readings.time_s;
+    // What was commanded after they were taken is still ahead of them.
+    way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
+  }
+  if (!SameEdges(input.seen, before_->seen)) {
+    images_changed_s_ = input.seen.time_s;
+    way_since_images_m_ = (input.time_s - input.seen.time_s) * commanded_m_per_s;
+  }
+  before_ = input;
+}
+
+Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
+  if (last_.end != ServoEnd::kRunning) return last_;
+  std::optional<Verdict> verdict = JudgeInput(input);
+  if (!verdict) verdict = JudgeAnswers(input);
+  if (!verdict) verdict = JudgeUsability(input, step);
+  if (!verdict) verdict = JudgeProgress(input, step);
+  if (!verdict && input.time_s - *start_s_ >= options_.timeout_s - kTimeSlack_s)
+    verdict = Ended(ServoEnd::kTimeout, fmt::format("not converged within {:.1f} s: {} left",
+                                                    options_.timeout_s, ErrorText(step.law.error)));
+  if (verdict) last_ = *verdict;
+  last_.tolerance = ToleranceFor(step);
+  return last_;
+}
+
+Verdict Supervisor::End(ServoEnd end, const std::string& reason) {
+  if (last_.end == ServoEnd::kRunning) last_ = Ended(end, reason);
+  return last_;
+}
+
+// Whether what came can be trusted at all.
+std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
+  if (!input.readings.joint_readings_m.allFinite()) {
+    std::bitset<kLegCount> bad;
+    for (int i = 0; i < kLegCount; ++i)
+      bad[static_cast<size_t>(i)] = !std::isfinite(input.readings.joint_readings_m[i]);
+    return Ended(ServoEnd::kBadReadings, fmt::format("joint readings of {} are not numbers", LegList(bad)));
+  }
+  const double readings_age_s = input.time_s - input.readings.time_s;
+  if (readings_age_s > options_.stale_s + kTimeSlack_s)
+    return Ended(ServoEnd::kStaleReadings,
+                 fmt::format("no fresh joint readings: the newest are {:.2f} s old", readings_age_s));
+  const double image_age_s = input.time_s - input.seen.time_s;
+  if (Looks() && image_age_s > options_.stale_s + kTimeSlack_s)
+    return Ended(ServoEnd::kStaleImages,
+                 fmt::format("no fresh image: the newest is {:.2f} s old", image_age_s));
+  return std::nullopt;
+}
+
+// Whether readings and images answer what is commanded.
+std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
+  const double images_for_s = input.time_s - images_changed_s_;
+  const double readings_for_s = input.time_s - readings_changed_s_;
+  const FarthestLeg by_images = Farthest(way_since_images_m_), by_readings = Farthest(way_since_readings_m_);
+  const bool readings_stand = by_readings.way_m > options_.unanswered_m;
+  const bool images_stand = Looks() && by_images.way_m > options_.unanswered_m;
+  const auto way_text = [](const FarthestLeg& farthest) {
+    return fmt::format("leg {} was commanded by {:.1f} mm", farthest.leg + 1, 1e3 * farthest.way_m);
+  };
+  if (readings_stand && images_stand)
+    return Ended(ServoEnd::kDrivesDoNotMove,
+                 fmt::format("neither joint readings nor images change though {}: "
+                             "the drives do not move",
+                             way_text(by_readings)));
+  if (readings_stand)
+    return Ended(ServoEnd::kFrozenReadings,
+                 fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
+                             readings_for_s, way_text(by_readings),
+                             Looks() ? ", for the images change" : ", or the drives do not move"));
+  const bool repeats = Looks() && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
+  if (images_stand || repeats)
+    return Ended(ServoEnd::kFrozenImages,
+                 fmt::format("the images have not changed for {:.2f} s{}: they are frozen", images_for_s,
+                             images_stand ? " though " + way_text(by_images) : ", not even by their noise"));
+  return std::nullopt;
+}
+
+// Whether the law had what it needs. It may lack edges for a moment.
+std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const ServoStep& step) {
+  const LawStatus status = step.law.status;
+  last_.is_waiting = status != LawStatus::kOk;
+  if (!last_.is_waiting) {
+    unusable_since_s_.reset();
+    return std::nullopt;
+  }
+  if (!unusable_since_s_) unusable_since_s_ = input.time_s;
+  const bool at_once = status == LawStatus::kBadReadings || status == LawStatus::kRobotSingular;
+  const double for_s = input.time_s - *unusable_since_s_;
+  if (!at_once && for_s < options_.unusable_s - kTimeSlack_s) return std::nullopt;
+  return Ended(EndOf(status), WhyNoSpeeds(step, law_));
+}
+
+std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const ServoStep& step) {
+  if (last_.is_waiting) return std::nullopt;
+  if (HasArrived(input, step))
+    return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
+                                                   ErrorText(step.law.error), ErrorText(ToleranceFor(step))));
+  if (Grows(input, step.law.error))
+    return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
+                                                    ErrorText(step.law.error), ErrorText(smallest_error_)));
+  return JudgeStall(input, step);
+}
+
+bool Supervisor::HasArrived(const CycleInput& input, const ServoStep& step) {
+  if (!(step.law.error <= ToleranceFor(step))) {
+    within_since_s_.reset();
+    return false;
+  }
+  if (!within_since_s_) within_since_s_ = input.time_s;
+  return input.time_s - *within_since_s_ >= options_.dwell_s - kTimeSlack_s;
+}
+
+bool Supervisor::Grows(const CycleInput& input, double error) {
+  smallest_error_ = std::min(smallest_error_, error);
+  const double allowed =
+      options_.growth_factor * smallest_error_ + options_.growth_tolerances * options_.tolerance;
+  if (error <= allowed) {
+    growing_since_s_.reset();
+    return false;
+  }
+  if (!growing_since_s_) growing_since_s_ = input.time_s;
+  return input.time_s - *growing_since_s_ >= options_.growth_s - kTimeSlack_s;
+}
+
+// Compares the two halves of the last stall_s.
+std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
+  // While the speed limit alone makes it slow there is nothing to complain of.
+  if (step.speed_factor < 1) recent_.clear();
+  recent_.push_back({input.time_s, step.law.error, input.readings.joint_readings_m, commanded_way_m_});
+  if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
+  const double middle_s = input.time_s - options_.stall_s / 2;
+  double sums[2] = {0, 0}, counts[2] = {0, 0};
+  for (const Moment& moment : recent_) {
+    sums[moment.time_s >= middle_s] += moment.error;
+    ++counts[moment.time_s >= middle_s];
+  }
+  const bool falls = sums[1] / counts[1] < (1 - options_.stall_share) * sums[0] / counts[0];
+  if (!falls) return WhyStalled(step);
+  recent_.pop_front();
+  return std::nullopt;
+}
+
+Verdict Supervisor::WhyStalled(const ServoStep& step) const {
+  const double now_s = recent_.back().time_s;
+  if (Looks() && now_s - images_changed_s_ > options_.stale_s + kTimeSlack_s)
+    return Ended(ServoEnd::kFrozenImages,
+                 fmt::format("the images have not changed for {:.2f} s: they are frozen, or nothing moves",
+                             now_s - images_changed_s_));
+  const std::string error = fmt::format("the error no longer falls: {} left", ErrorText(step.law.error));
+  const std::bitset<kLegCount> held = step.at_shortest | step.at_longest;
+  if (held.any())
+    return Ended(ServoEnd::kStalled,
+                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(step)));
+  const Vector6d commanded_m = commanded_way_m_ - recent_.front().commanded_way_m;
+  const Vector6d moved_m = recent_.back().readings_m - recent_.front().readings_m;
+  const FarthestLeg farthest = Farthest(commanded_m);
+  if (farthest.way_m > kLeastWay_m && std::abs(moved_m[farthest.leg]) < kFollowedShare * farthest.way_m)
+    return Ended(
+        ServoEnd::kStalled,
+        fmt::format("{}: the drive of leg {} does not follow, it was commanded by {:.2f} mm in {:.1f} s "
+                    "and moved by {:.2f} mm (friction, or frozen joint readings)",
+                    error, farthest.leg + 1, 1e3 * farthest.way_m, options_.stall_s,
+                    1e3 * std::abs(moved_m[farthest.leg])));
+  return Ended(
+      ServoEnd::kStalled,
+      fmt::format("{} and nothing holds the robot: a local minimum, or noise above the tolerance of {}",
+                  error, ErrorText(ToleranceFor(step))));
+}
+
+std::string Supervisor::ErrorText(double error) const {
+  if (law_.mode == ControlMode::kEdges) return fmt::format("{:.2f} px", error);
+  if (law_.mode == ControlMode::kDirections) return fmt::format("{:.2f} mrad", 1e3 * error);
+  return fmt::format("{:.3f} mm", 1e3 * error);
+}
+
+double Supervisor::ToleranceFor(const ServoStep& step) const {
+  return std::max(options_.tolerance, options_.tolerance_in_noise * step.law.error_noise);
+}
+
+}  // namespace legible

@@ -1,0 +1,116 @@
+// Decides when a servo has arrived and when it must not go on. What it has decided stays decided.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "core/rig/rig.h"
+#include "core/vision/seen_edges.h"
+#include "servo/servo_step.h"
+
+namespace legible {
+
+enum class ServoEnd {
+  kRunning,
+  kConverged,
+  kBadReadings,     // not numbers
+  kStaleReadings,   // too old
+  kFrozenReadings,  // the same though the joints should have moved
+  kStaleImages,
+  kFrozenImages,
+  kDrivesDoNotMove,  // neither readings nor images change
+  kTooFewEdges,
+  kIllConditionedEdges,
+  kRobotSingular,
+  kNoPose,
+  kErrorGrows,
+  kStalled,  // the error no longer falls
+  kTimeout,
+  kLinkLost,
+  kStoppedByUser,
+};
+// "converged", "stale-images", …
+const char* ToString(ServoEnd end);
+
+struct SupervisorOptions {
+  double tolerance = 0;  // of the error, in the mode's unit; 0: DefaultTolerance
+  // An error that is no more than this many times what noise alone leaves is within the tolerance too.
+  double tolerance_in_noise = 1.5;
+  double dwell_s = 0.2;        // for which it is to stay there
+  double stale_s = 0.1;        // oldest image, oldest readings
+  double unusable_s = 0.5;     // for which too little may be seen: the robot waits
+  double unanswered_m = 3e-3;  // of commanded way that nothing answers
+  double growth_factor = 1.5;  // over the smallest error so far, and as many tolerances as below
+  double growth_tolerances = 20;
+  double growth_s = 0.5;
+  double stall_s = 3;  // in which the error must fall by stall_share
+  double stall_share = 0.05;
+  double timeout_s = 60;
+
+  void Check() const;  // throws std::invalid_argument
+};
+
+// 0.25 px, 2 mrad, 0.1 mm for a pose and 0.05 mm for joints.
+double DefaultTolerance(ControlMode mode);
+
+// What a cycle of the loop begins with.
+struct CycleInput {
+  double time_s = 0;  // of the rig's clock
+  StampedReadings readings;
+  SeenEdges seen;
+};
+
+struct Verdict {
+  ServoEnd end = ServoEnd::kRunning;
+  std::string reason;       // in words; empty while it runs
+  bool is_waiting = false;  // running, but not allowed to move: too little is seen
+  double tolerance = 0;     // as it is at the moment
+};
+
+class Supervisor {
+ public:
+  Supervisor(const ControlLawOptions& law, const SupervisorOptions& options);
+
+  // How far the joints were commanded since the readings last changed, m.
+  const Vector6d& WaySinceReadings() const { return way_since_readings_m_; }
+
+  // To be told of each cycle before the step: what came, and the speeds commanded since the last one.
+  void Note(const CycleInput& input, const Vector6d& commanded_m_per_s);
+  // And after it.
+  Verdict Judge(const CycleInput& input, const ServoStep& step);
+  // From outside: the link, the user. Keeps an earlier end.
+  Verdict End(ServoEnd end, const std::string& reason);
+
+ private:
+  struct Moment {
+    double time_s, error;
+    Vector6d readings_m, commanded_way_m;
+  };
+
+  bool Looks() const;
+  std::optional<Verdict> JudgeInput(const CycleInput& input) const;
+  std::optional<Verdict> JudgeAnswers(const CycleInput& input) const;
+  std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
+  std::optional<Verdict> JudgeProgress(const CycleInput& input, const ServoStep& step);
+  bool HasArrived(const CycleInput& input, const ServoStep& step);
+  bool Grows(const CycleInput& input, double error);
+  std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
+  Verdict WhyStalled(const ServoStep& step) const;
+  std::string ErrorText(double error) const;
+  double ToleranceFor(const ServoStep& step) const;
+
+  ControlLawOptions law_;
+  SupervisorOptions options_;
+  Verdict last_;
+  std::optional<double> start_s_, within_since_s_, unusable_since_s_, growing_since_s_;
+  std::optional<CycleInput> before_;
+  double readings_changed_s_ = 0, images_changed_s_ = 0;
+  Vector6d way_since_readings_m_ = Vector6d::Zero();
+  Vector6d way_since_images_m_ = Vector6d::Zero();
+  Vector6d commanded_way_m_ = Vector6d::Zero();
+  double smallest_error_ = 1e300;
+  std::deque<Moment> recent_;
+};
+
+}  // namespace legible
