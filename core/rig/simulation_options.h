@@ -17,11 +17,12 @@ namespace legible {
 struct DriveOptions {
   double lag_s = 0.02;               // time constant with which a speed follows its command; 0: at once
   double speed_limit_m_per_s = 0.1;  // a command beyond is cut off, joint by joint
-  // Friction: a joint at rest begins to move only when commanded faster than the breakaway speed; one that
-  // moves loses the sliding speed of its command, and sticks when nothing is left. Both depend on the
-  // configuration: they vary by the share `friction_variation` of themselves with each joint's length.
+  // Friction, of the lagging speed: a joint at rest begins to move only when that exceeds the breakaway
+  // speed; one that moves loses the sliding speed of it, and sticks when nothing is left. Both depend on the
+  // configuration: they vary by the share `friction_variation` of themselves with each joint's length, each
+  // joint in a phase of its own.
   double breakaway_speed_m_per_s = 0;
-  double sliding_loss_m_per_s = 0;
+  double sliding_loss_m_per_s = 0;  // at most the breakaway speed
   double friction_variation = 0.5;
   double friction_period_m = 0.03;  // of joint length over which the friction varies once
   double reading_step_m = 1e-6;     // quantisation of the readings; 0: none
@@ -70,7 +71,7 @@ struct Fault {
 };
 
 struct SimulationOptions {
-  double period_s = 0.02;  // of the camera and of whoever drives: the step of the simulated clock
+  double period_s = 0.02;  // of the camera: it exposes at the multiples of this
   DriveOptions drives;
   SceneOptions scene;
   double edge_noise_px = 0.05;  // image-free: 1 sigma of each end of an edge, across it
@@ -79,6 +80,44 @@ struct SimulationOptions {
   std::optional<Rigid3> start;  // base_from_platform in the beginning; none: the robot's home
 
   void Check() const;  // throws std::invalid_argument that names the field out of its range
+};
+
+// A number of an options struct, by the name that files and messages give it, and the bounds that Check
+// keeps.
+template <typename Options>
+struct NumberField {
+  std::string name;
+  double Options::*value;
+  double lowest, highest;
+};
+inline const std::vector<NumberField<DriveOptions>> kDriveFields = {
+    {"lag_s", &DriveOptions::lag_s, 0, 10},
+    {"speed_limit_m_per_s", &DriveOptions::speed_limit_m_per_s, 1e-6, 100},
+    {"breakaway_speed_m_per_s", &DriveOptions::breakaway_speed_m_per_s, 0, 100},
+    {"sliding_loss_m_per_s", &DriveOptions::sliding_loss_m_per_s, 0, 100},
+    {"friction_variation", &DriveOptions::friction_variation, 0, 1},
+    {"friction_period_m", &DriveOptions::friction_period_m, 1e-4, 100},
+    {"reading_step_m", &DriveOptions::reading_step_m, 0, 0.01},
+    {"reading_noise_m", &DriveOptions::reading_noise_m, 0, 0.01},
+};
+inline const std::vector<NumberField<SceneOptions>> kSceneFields = {
+    {"blur_px", &SceneOptions::blur_px, 0, 20},
+    {"noise_grey", &SceneOptions::noise_grey, 0, 100},
+    {"ambient", &SceneOptions::ambient, 0, 1},
+    {"leg_grey", &SceneOptions::leg_grey, 0, 255},
+    {"plate_grey", &SceneOptions::plate_grey, 0, 255},
+    {"joint_grey", &SceneOptions::joint_grey, 0, 255},
+    {"ground_grey", &SceneOptions::ground_grey, 0, 255},
+    {"texture_grey", &SceneOptions::texture_grey, 0, 100},
+};
+inline const std::vector<NumberField<Fault>> kFaultFields = {
+    {"from_s", &Fault::from_s, 0, 1e9},
+    {"until_s", &Fault::until_s, 0, 1e9},
+    {"delay_s", &Fault::delay_s, 0, 1e9},
+};
+inline const std::vector<NumberField<SimulationOptions>> kSimulationFields = {
+    {"period_s", &SimulationOptions::period_s, 1e-3, 10},
+    {"edge_noise_px", &SimulationOptions::edge_noise_px, 0, 100},
 };
 
 // A rig as it really is.
