@@ -20,10 +20,12 @@ bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
                     });
 }
 
-// An image of a real camera never comes twice.
+// With noise that shows no image comes twice.
 bool HasNoise(const SeenEdges& seen) {
-  return std::any_of(seen.edges.begin(), seen.edges.end(),
-                     [](const SeenEdge& edge) { return edge.normal_covariance.trace() > 0; });
+  constexpr double kLeastNoise_rad = 1e-6;
+  return std::any_of(seen.edges.begin(), seen.edges.end(), [](const SeenEdge& edge) {
+    return edge.normal_covariance.trace() > kLeastNoise_rad * kLeastNoise_rad;
+  });
 }
 
 Verdict Ended(ServoEnd end, const std::string& reason) { return {end, reason, false, 0}; }
