@@ -194,7 +194,10 @@ class Measurement {
       const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
       works_.emplace_back(edge, legs_[leg], predicted[leg][side]);
     }
-    if (options.lock) Lock(predicted);
+    if (options.lock)
+      Lock(predicted);
+    else
+      Shift();
     for (Work& work : works_) CheckLength(work);
   }
 
@@ -224,6 +227,15 @@ class Measurement {
       // The lock's shift is towards edge 2: outward for that one, inward for edge 1.
       const double sign = work.result->edge == 1 ? 1 : -1;
       ShiftEnds(camera_, *work.leg, sign * lock->shift_at_a_px, sign * lock->shift_at_b_px, work.predicted);
+    }
+  }
+
+  void Shift() {
+    for (Work& work : works_) {
+      const auto& shifts =
+          options_.shifts[static_cast<size_t>(work.result->leg)][static_cast<size_t>(work.result->edge)];
+      if (shifts && !work.predicted.points.empty())
+        ShiftEnds(camera_, *work.leg, shifts->at_a_px, shifts->at_b_px, work.predicted);
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,17 @@
 
 namespace legible {
 
+// How far outward of its prediction an edge lies where it passes its leg's two joints.
+struct EndShifts {
+  double at_a_px = 0, at_b_px = 0;
+};
+// By leg and edge; none: where it is predicted.
+using EdgeShifts = std::array<std::array<std::optional<EndShifts>, 2>, kLegCount>;
+
 struct LegEdgeOptions {
   VisibilityOptions visibility;
   std::optional<LegLockOptions> lock = LegLockOptions{};  // none: the prediction is good to search_px
+  EdgeShifts shifts = {};                                 // known beforehand, instead of a lock
   double search_px = 5;  // how far from the (locked) prediction an edge is looked for
   // Rough places only, to a few tenths of a pixel, and edges that bend from the prediction by up to
   // rough_bend_px (a quarter of that in the middle): what finds the camera while its lens is unknown.

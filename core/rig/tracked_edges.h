@@ -1,0 +1,34 @@
+// Edges followed in the images of a rig.
+#pragma once
+
+#include <optional>
+
+#include "core/rig/edge_source.h"
+#include "core/rig/rig.h"
+#include "core/vision/edge_tracker.h"
+
+namespace legible {
+
+class TrackedEdgeSource : public EdgeSource {
+ public:
+  // The rig must outlive this. The legs are expected where the model has them by the readings, carried on to
+  // the image's time by the commanded speeds. Throws std::invalid_argument where the options are wrong.
+  TrackedEdgeSource(Rig& rig, const GoughStewart& robot, const Camera& camera, const Rigid3& camera_from_base,
+                    const EdgeTrackerOptions& options);
+
+  SeenEdges See(const MotionNow& motion) override;
+
+  // The newest image and what was made of it; nothing before the first See.
+  const StampedImage& image() const { return image_; }
+  const std::optional<TrackedEdges>& newest() const { return newest_; }
+
+ private:
+  Rig& rig_;
+  GoughStewart robot_;
+  EdgeTracker tracker_;
+  Rigid3 base_from_platform_;  // as last predicted
+  StampedImage image_;
+  std::optional<TrackedEdges> newest_;
+};
+
+}  // namespace legible
