@@ -16,6 +16,7 @@ libceres-dev         least squares
 libgoogle-glog-dev   what Ceres logs through
 libopencv-dev        reads images; first pose from tags
 libapriltag-dev      finds AprilTags
+libembree-dev        traces the rays of the simulated camera
 libyaml-cpp-dev      reads YAML
 nlohmann-json3-dev   writes JSON
 libcli11-dev         command line

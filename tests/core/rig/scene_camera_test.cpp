@@ -1,0 +1,3 @@
+#include "core/rig/scene_camera.h"
+
+#include <gtest/gtest.h>
