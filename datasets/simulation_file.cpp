@@ -72,14 +72,24 @@ FaultKind FaultKindFromYaml(const YamlValue& value) {
              fmt::format("the nearest known one is \"{}\"", NearestName(text, names)));
 }
 
-// Only a covered leg has a leg, only late frames have a delay.
+const std::string& NameOf(FaultKind kind) {
+  return std::find_if(kFaultNames.begin(), kFaultNames.end(),
+                      [&](const auto& entry) { return entry.first == kind; })
+      ->second;
+}
+
+void AllowOnlyFor(FaultKind owner, const char* key, FaultKind kind, const YamlValue& section) {
+  const std::optional<YamlValue> value = section.Find(key);
+  if (kind == owner || !value) return;
+  value->Fail("has no meaning for " + NameOf(kind), "only " + NameOf(owner) + " has it: take it out");
+}
+
 Fault FaultFromYaml(const YamlValue& section) {
+  section.AllowKeys({"kind", "from_s", "until_s", "leg", "delay_s"});
   Fault fault;
   fault.kind = FaultKindFromYaml(section.Get("kind"));
-  std::vector<std::string> keys = {"kind", "from_s", "until_s"};
-  if (fault.kind == FaultKind::kLegCovered) keys.emplace_back("leg");
-  if (fault.kind == FaultKind::kFramesLate) keys.emplace_back("delay_s");
-  section.AllowKeys(keys);
+  AllowOnlyFor(FaultKind::kLegCovered, "leg", fault.kind, section);
+  AllowOnlyFor(FaultKind::kFramesLate, "delay_s", fault.kind, section);
   ReadNumbers(section, kFaultFields, fault);
   if (fault.from_s >= fault.until_s)
     section.Fail(fmt::format("lasts from {} s until {} s", fault.from_s, fault.until_s),
@@ -155,9 +165,7 @@ std::string NumbersToYaml(const Options& options, const std::vector<NumberField<
 }
 
 std::string FaultToYaml(const Fault& fault) {
-  const auto named = std::find_if(kFaultNames.begin(), kFaultNames.end(),
-                                  [&](const auto& entry) { return entry.first == fault.kind; });
-  std::string text = fmt::format("- {{kind: {}, from_s: {}, until_s: {}", named->second,
+  std::string text = fmt::format("- {{kind: {}, from_s: {}, until_s: {}", NameOf(fault.kind),
                                  NumberText(fault.from_s), NumberText(fault.until_s));
   if (fault.kind == FaultKind::kLegCovered) text += fmt::format(", leg: {}", fault.leg + 1);
   if (fault.kind == FaultKind::kFramesLate) text += fmt::format(", delay_s: {}", NumberText(fault.delay_s));

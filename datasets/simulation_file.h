@@ -21,8 +21,9 @@ struct SimulatedTruth {
 // a joint's range.
 SimulatedTruth ReadTruth(const std::filesystem::path& file);
 
-// Writes so that ReadTruth gives back the same bits, all options listed, paths relative to the file's folder.
-// Throws InputError if the file cannot be written and std::invalid_argument if the options do not pass Check.
+// Writes so that ReadTruth gives back the same bits (of a fault what its kind has), all options listed, paths
+// relative to the file's folder. Throws InputError if the file cannot be written and std::invalid_argument if
+// the options do not pass Check.
 void WriteTruth(const std::filesystem::path& file, const SimulatedTruth& simulated);
 
 }  // namespace legible
