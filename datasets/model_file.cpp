@@ -107,7 +107,7 @@ CalibratedModel ReadModel(const std::filesystem::path& file) {
   return drawing;
 }
 
-void WriteModel(const std::filesystem::path& file, const CalibratedModel& model) {
+std::string ModelToYaml(const CalibratedModel& model) {
   DemandCovarianceOfNames(model);
   std::string text = "robot:\n" + Indented(RobotToYaml(model.robot));
   if (model.camera) text += "camera:\n" + Indented(CameraToYaml(*model.camera));
@@ -115,7 +115,11 @@ void WriteModel(const std::filesystem::path& file, const CalibratedModel& model)
     text += fmt::format("camera_from_base: {}\n", RigidText(*model.camera_from_base));
   if (!model.provenance.empty()) text += ProvenanceToYaml(model.provenance);
   if (!model.parameter_names.empty()) text += CovarianceToYaml(model.parameter_names, model.covariance);
-  WriteFileAtomically(file, text);
+  return text;
+}
+
+void WriteModel(const std::filesystem::path& file, const CalibratedModel& model) {
+  WriteFileAtomically(file, ModelToYaml(model));
 }
 
 }  // namespace legible
