@@ -31,6 +31,7 @@ void ReadNumbers(const YamlValue& section, const std::vector<NumberField<Options
 template <typename Options>
 std::vector<std::string> NamesOf(const std::vector<NumberField<Options>>& fields) {
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const NumberField<Options>& field : fields) names.push_back(field.name);
   return names;
 }
