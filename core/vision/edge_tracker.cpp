@@ -88,9 +88,19 @@ Eigen::Matrix3d CovarianceOfShift(const Camera& camera, const Eigen::Vector3d& n
 
 }  // namespace
 
+LegEdgeOptions EdgesToTrack() {
+  LegEdgeOptions options;
+  options.keeps_rough = true;
+  options.least_length_px = 30;
+  options.least_contrast = 8;
+  options.largest_common_sigma_px = 0.4;
+  options.sample_length_px = 20;
+  return options;
+}
+
 void EdgeTrackerOptions::Check() const {
   first_look.Check();
-  if (!(search_px > 0) || !(gate_px > 0) || !(forget_s > 0))
+  if (!(search_px > 0) || !(gate_px > 0) || !(width_gate_px > 0) || !(forget_s > 0))
     throw std::invalid_argument("EdgeTrackerOptions: lengths and times must be positive");
 }
 
@@ -109,6 +119,7 @@ TrackedEdges EdgeTracker::Track(const GrayImage& image, double time_s,
   LegEdges edges = Look(image, legs, ExpectedShifts(legs, time_s));
   const EdgeShifts found = ShiftsOf(legs, edges);
   DropJumps(found, time_s, edges);
+  DropWrongWidths(found, edges);
   TrackedEdges tracked;
   tracked.seen.time_s = time_s;
   tracked.blur_px = edges.blur_px;
@@ -188,6 +199,22 @@ void EdgeTracker::DropJumps(const EdgeShifts& found, double time_s, LegEdges& ed
     const double jump_px = LargestDifference(*found[leg][side], places_[leg][side]->shifts);
     if (jump_px > options_.gate_px)
       edge.left_out = fmt::format("found {:.1f} px from where it is expected", jump_px);
+  }
+}
+
+// A leg is as wide as the model has it, nearly: where its two edges are not, one of them is something else's.
+void EdgeTracker::DropWrongWidths(const EdgeShifts& found, LegEdges& edges) const {
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    LegEdge &edge_1 = edges.edges[2 * leg], &edge_2 = edges.edges[2 * leg + 1];
+    if (!edge_1.left_out.empty() || !edge_2.left_out.empty()) continue;
+    const EndShifts &shifts_1 = *found[leg][0], &shifts_2 = *found[leg][1];
+    const double wider_px = std::max(std::abs(shifts_1.at_a_px + shifts_2.at_a_px),
+                                     std::abs(shifts_1.at_b_px + shifts_2.at_b_px));
+    if (wider_px <= options_.width_gate_px) continue;
+    const std::string reason = fmt::format("the leg's edges are {:.1f} px from its width apart", wider_px);
+    // A rough one is the likelier to be wrong.
+    if (edge_1.is_rough || !edge_2.is_rough) edge_1.left_out = reason;
+    if (edge_2.is_rough || !edge_1.is_rough) edge_2.left_out = reason;
   }
 }
 

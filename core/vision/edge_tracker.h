@@ -10,13 +10,17 @@
 
 namespace legible {
 
+// Edges for a control law: also those whose places are too uncertain for a calibration.
+LegEdgeOptions EdgesToTrack();
+
 struct EdgeTrackerOptions {
   // Of the first look; `lock` says how far off the model may be then.
-  LegEdgeOptions first_look;
+  LegEdgeOptions first_look = EdgesToTrack();
   double search_px = 5;  // how far from where it is expected an edge is looked for later on
   // How far from there it may be found at most, at either end of its leg, while it is followed. Farther off
   // it is something else's.
   double gate_px = 2.5;
+  double width_gate_px = 4;  // how much wider or narrower than the model's a leg may be found, at either end
   // An edge that has not been seen for so long is looked for where the others have moved, as far as
   // search_px.
   double forget_s = 0.5;
@@ -57,6 +61,7 @@ class EdgeTracker {
   LegEdges Look(const GrayImage& image, const LegsInCamera& legs, const EdgeShifts& expected);
   EdgeShifts ShiftsOf(const LegsInCamera& legs, LegEdges& edges) const;
   void DropJumps(const EdgeShifts& found, double time_s, LegEdges& edges) const;
+  void DropWrongWidths(const EdgeShifts& found, LegEdges& edges) const;
 
   GoughStewart robot_;
   Camera camera_;

@@ -38,6 +38,8 @@ constexpr int kMostBlurSteps = 20, kMostModelRounds = 6;
 // absurdly far.
 constexpr double kOffEdge_px = 0.25, kAbsurdlyOff_px = 2;
 constexpr int kMostMoves = 3;
+constexpr size_t kFewestSamples = 3;
+constexpr double kRoughSigma_px = 0.3;  // of a whole edge whose place is a rough one
 constexpr const char* kNoEdge = "no edge in the brightness across it";
 
 // One edge on its way through the stages.
@@ -56,6 +58,7 @@ struct Work {
   EdgeProfile profile;
   ProfileFitOptions fit_options;
   std::optional<ProfileFit> fit;
+  std::vector<EdgeSample> rough;
 
   bool Dropped() const { return !result->left_out.empty(); }
 };
@@ -176,7 +179,7 @@ void Judge(const LegEdgeOptions& options, Work& work) {
     edge.left_out =
         fmt::format("its place is open by {:.2f} px: shading, or stretches that do not lie on one line",
                     edge.observation.common_sigma_px);
-  else if (edge.observation.samples.size() < 3)
+  else if (edge.observation.samples.size() < kFewestSamples)
     edge.left_out = "fewer than three stretches lie on one line";
 }
 
@@ -210,8 +213,10 @@ class Measurement {
     result_.grey_noise = CommonGreyNoise();
     for (Work& work : works_) FitFirst(work);
     result_.blur_px = AnyLeft() ? FindBlur() : 0;
-    for (Work& work : works_)
+    for (Work& work : works_) {
       if (!work.Dropped()) Finish(work);
+      if (work.Dropped() && work.rough.size() >= kFewestSamples) FallBack(work);
+    }
     return std::move(result_);
   }
 
@@ -248,6 +253,7 @@ class Measurement {
       work.result->observation = {work.result->leg, work.result->edge, trace->samples, 0};
     else
       ShiftEnds(camera_, *work.leg, trace->at_a_px, trace->at_b_px, work.predicted);
+    if (trace && options_.keeps_rough) work.rough = trace->samples;
   }
 
   void CheckLength(Work& work) const {
@@ -371,6 +377,18 @@ class Measurement {
     Sample(work);
     FitLine(camera_, work);
     Judge(options_, work);
+  }
+
+  void FallBack(Work& work) const {
+    LegEdge& edge = *work.result;
+    const EdgeLine line = FitEdgeLine(camera_, work.predicted.normal, work.rough);
+    if (line.samples.size() < kFewestSamples) return;
+    edge.left_out.clear();
+    edge.is_rough = true;
+    edge.normal = line.normal;
+    edge.normal_covariance = line.normal_covariance;
+    edge.observation = {edge.leg, edge.edge, line.samples, kRoughSigma_px};
+    edge.rms_px = line.rms_px;
   }
 
   const GrayImage& image_;

@@ -30,6 +30,7 @@ struct LegEdgeOptions {
   // rough_bend_px (a quarter of that in the middle): what finds the camera while its lens is unknown.
   bool rough_only = false;
   double rough_bend_px = 0;
+  bool keeps_rough = false;              // an edge that cannot be measured finely keeps its rough place
   double least_length_px = 40;           // of the visible stretch
   double least_contrast = 15;            // grey levels: below, the shading of dark sides dominates
   double largest_common_sigma_px = 0.1;  // an edge whose place is less certain is left out
@@ -41,10 +42,11 @@ struct LegEdgeOptions {
 
 // An edge as measured, or why it was not.
 struct LegEdge {
-  int leg = 0;           // 0-based
-  int edge = 0;          // 0 or 1
-  std::string left_out;  // the reason; empty: measured
-  bool in_sight = true;  // enough of it, as predicted: other legs, plates and the image's border leave it
+  int leg = 0;            // 0-based
+  int edge = 0;           // 0 or 1
+  std::string left_out;   // the reason; empty: measured
+  bool in_sight = true;   // enough of it, as predicted: other legs, plates and the image's border leave it
+  bool is_rough = false;  // its place is the rough one
   EdgeObservation observation;
   // Outline normal of the line through the samples, in the camera frame, unit, away from the leg.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
