@@ -1,5 +1,5 @@
 // A picture that can be turned and zoomed. What it shows is drawn anew as SVG for each view: no WebGL, prints sharply.
-import { html, svg } from "../shared/dom.js";
+import { html, svg } from "./dom.js";
 import { START, turned, zoomed } from "./turntable.js";
 
 const RADIANS_PER_PIXEL = 0.008;

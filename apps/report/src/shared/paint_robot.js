@@ -1,7 +1,7 @@
 // The robot as SVG: plates, legs as shaded cylinders, axes, numbers of the joints; nearer things over farther ones.
 import { polygonHull } from "d3";
 import { vec3 } from "gl-matrix";
-import { svg } from "../shared/dom.js";
+import { svg } from "./dom.js";
 import { middle } from "./robot_geometry.js";
 
 // Legs are cut into pieces for sorting by depth: they pass in front of each other.
