@@ -58,7 +58,3 @@ export function paintDirection(direction, size, origin, magnified, screen) {
   const end = screen.at(vec3.scaleAndAdd([], origin, direction, size * magnified));
   return svg("g", { class: "direction" }, arrow(screen.at(origin), end));
 }
-
-// The platform where a free motion takes it.
-export const paintGhost = (joints, screen) =>
-  svg("path", { class: "ghost", d: path(outline(joints.map(screen.at))) });

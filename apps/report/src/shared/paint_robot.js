@@ -181,3 +181,7 @@ export function arrow(start, end) {
   });
   return svg("path", { d: path([start, end], false) + path([wing(1), end, wing(-1)], false) });
 }
+
+// The outline of a platform with its joints at these points.
+export const paintGhost = (joints, screen, name = "") =>
+  svg("path", { class: `ghost ${name}`.trim(), d: path(outline(joints.map(screen.at))) });
