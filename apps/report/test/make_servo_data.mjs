@@ -209,7 +209,7 @@ function cyclesOf(steps) {
 }
 
 const quantile = (values, share) =>
-  [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
+  [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.ceil(share * values.length) - 1)];
 const timesOf = (values) => ({ median: quantile(values, 0.5), p99: quantile(values, 0.99) });
 
 function pathOf(poses) {

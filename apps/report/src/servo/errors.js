@@ -5,6 +5,7 @@ import { MISSING, isNumber, significant } from "../shared/format.js";
 import { COLOR, key } from "../shared/plots.js";
 import { errorSeries, exponentialRate } from "./error_series.js";
 import { legColor } from "./leg_colors.js";
+import { periodOf } from "./spans.js";
 import { timePlot } from "./time_plot.js";
 
 const TALL = 320;
@@ -65,14 +66,17 @@ class ErrorPlots {
   draw(panel, height) {
     const { label, unit, curves } = panel;
     const { log } = this.shown;
-    const drawn = [...this.singles(panel), ...curves.map((curve, index) => mainCurve(curve, index))];
+    const drawn = [
+      ...this.singles(panel),
+      ...curves.map((curve, index) => mainCurve(curve, index, this.shown[panel.key])),
+    ];
     const tolerance = curves[0].tolerance;
     if (tolerance?.some(isNumber))
       drawn.unshift({ label: "tolerance", values: tolerance, color: COLOR.muted, width: 1.4, dash: "5 4" });
     return figure(
       null,
       html("h4", null, label),
-      key(entriesOf(curves, this.shown[panel.key])),
+      keyOf(curves, this.shown[panel.key]),
       timePlot(this.run, drawn, { description: `${label} over time`, unit, height, log, zero: true }),
     );
   }
@@ -84,13 +88,30 @@ class ErrorPlots {
 }
 
 const COLORS = [COLOR.first, COLOR.second];
-const mainCurve = ({ label, values }, index) => ({ label, values, color: COLORS[index], width: 2.2 });
+// Beside single curves in colours all together is black.
+const colorOf = (index, hasSingles) => (hasSingles ? COLOR.text : COLORS[index]);
+const mainCurve = ({ label, values }, index, hasSingles) => ({
+  label,
+  values,
+  color: colorOf(index, hasSingles),
+  width: 2.2,
+});
+
+// A curve that is alone needs none.
+function keyOf(curves, hasSingles) {
+  const entries = entriesOf(curves, hasSingles);
+  return entries.length > 1 && key(entries);
+}
 
 function entriesOf(curves, hasSingles) {
   const [{ tolerance, single }] = curves;
   const several = curves.length > 1;
   return [
-    ...curves.map(({ source }, index) => ["line", COLORS[index], several ? source : "all together"]),
+    ...curves.map(({ source }, index) => [
+      "line",
+      colorOf(index, hasSingles),
+      several ? source : "all together",
+    ]),
     ...(tolerance?.some(isNumber) ? [["dashes", COLOR.muted, "tolerance"]] : []),
     ...(hasSingles
       ? [0, 1, 2, 3, 4, 5]
@@ -110,6 +131,18 @@ function panelsOf(series) {
     panels.get(name).curves.push(each);
   }
   return [...panels.values()];
+}
+
+// What a constant gain leads to with commands at intervals; null for a gain that changes.
+function expectedRate(gains, times) {
+  const [gain, period] = [gains?.[0], periodOf(times)];
+  if (!isNumber(gain) || !(period > 0) || gains.some((each) => each !== gain) || gain * period >= 1)
+    return null;
+  const rate = -Math.log(1 - gain * period) / period;
+  return (
+    ` In steps of ${significant(1e3 * period)} ms that is ${significant(rate)} 1/s for the gain of ` +
+    `${significant(gain)} 1/s.`
+  );
 }
 
 function fallsFar(values) {
@@ -143,6 +176,7 @@ function rateTable(series, { data, times }) {
       "The rate is the slope of the straight line through the logarithm of the error, over the cycles in which no " +
         "limit was in force and the error was well above what was left at the end. An exponential fall under the law " +
         "has the gain as its rate.",
+      expectedRate(data.cycles.gain_per_s, times),
     ),
   ];
 }

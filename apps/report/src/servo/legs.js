@@ -6,7 +6,7 @@ import { capitalized, fixed, isNumber, significant } from "../shared/format.js";
 import { COLOR, TIP, key, plot, responsive } from "../shared/plots.js";
 import { legColor } from "./leg_colors.js";
 import { MM, MM_PER_S } from "./quantities.js";
-import { limitSpans } from "./spans.js";
+import { limitSpans, mergedSpans } from "./spans.js";
 import { timeAxis, timePlot } from "./time_plot.js";
 
 const TALL = 300;
@@ -22,7 +22,8 @@ export function renderLegs(section, run) {
     section,
     speeds.length > 0 && new SpeedPlot(speeds, limits, run).element,
     limitsInForce(limits, run),
-    readings.length > 0 && [html("h3", null, "Joint readings"), readingPanels(readings, run)],
+    readings.length > 0 && html("h3", null, "Joint readings"),
+    readings.length > 0 && readingPanels(readings, run),
   );
 }
 
@@ -35,7 +36,8 @@ const perLeg = (rows, { scale }) =>
 class SpeedPlot {
   constructor(speeds, limits, run) {
     Object.assign(this, { speeds, run });
-    this.spans = limits.flatMap(({ spans }) => spans);
+    const spans = limits.flatMap((limit) => limit.spans);
+    this.spans = mergedSpans(spans, finestGap(run.times));
     this.hidden = new Set();
     this.place = html("div");
     const limit = run.data.robot?.speed_limit_m_per_s;
@@ -112,11 +114,16 @@ function limitsInForce(limits, run) {
   ];
 }
 
+// Gaps (s) that a drawing cannot show.
+const finestGap = (times) => (times[times.length - 1] - times[0]) / 1000;
+
 const letter = (index) => (index < 26 ? String.fromCharCode(65 + index) : String(index + 1));
 
 // A row a limit: its words, and below them bars over the times at which it was in force.
 function spanPlot(limits, { times, moment }, width) {
-  const bars = limits.flatMap(({ name, words, spans }) => spans.map((span) => ({ name, words, ...span })));
+  const bars = limits.flatMap(({ name, words, spans }) =>
+    mergedSpans(spans, finestGap(times)).map((span) => ({ name, words, ...span })),
+  );
   const drawing = plot("When which limits were in force", {
     width,
     height: ROW * limits.length + 44,

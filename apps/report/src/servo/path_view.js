@@ -2,14 +2,14 @@
 import { vec3 } from "gl-matrix";
 import { copyable } from "../shared/copy_table.js";
 import { html, svg, table } from "../shared/dom.js";
-import { fixed, isNumber, significant } from "../shared/format.js";
+import { MISSING, fixed, isNumber, significant } from "../shared/format.js";
 import { paintAxes, paintGhost, paintNumbers, paintRobot, path } from "../shared/paint_robot.js";
 import { COLOR, key } from "../shared/plots.js";
 import { robotAt } from "../shared/robot_geometry.js";
 import { paintScaleBars } from "../shared/scale_bars.js";
 import { TurnableView } from "../shared/turnable_view.js";
-import { enclosing, projection } from "../shared/turntable.js";
-import { centersOf, firstOf, lastOf, straightWay } from "./path_geometry.js";
+import { START, enclosing, projection, screenAxes } from "../shared/turntable.js";
+import { centersOf, deviations, firstOf, lastOf, straightWay } from "./path_geometry.js";
 import { MM, MM_PER_S, ofError } from "./quantities.js";
 import { sparse } from "./thinning.js";
 
@@ -18,6 +18,10 @@ const AXIS_LENGTH = 0.3;
 const MARGIN = 1.06;
 const FINEST_STEP = 1 / 600;
 const SAME_PLACE = 0.02;
+const CLOSEST = 0.02;
+const CLOSE_MARGIN = 1.5; // of the path's radius
+const LEAST_BEND = 0.01; // of the way's length
+const ELEVATION = { least: (20 * Math.PI) / 180, most: (60 * Math.PI) / 180 };
 
 export const canDrawPath = ({ robot, cycles }) =>
   Boolean(robot?.legs?.length && cycles?.poses?.some(Boolean));
@@ -34,12 +38,16 @@ export class PathView {
       ["goal", this.goal],
     ].filter(([, pose]) => pose);
     this.scene = sceneOf(robot, this.ends, centersOf(cycles.poses));
+    this.closeUp = closeUpOf(this.ends, centersOf(cycles.poses), this.scene);
+    this.isClose = false;
     this.paths = [this.pathOf("readings", cycles.poses), this.pathOf("true", cycles.true_poses)].filter(
       ({ points }) => points.length,
     );
     this.turnable = new TurnableView(
       "The robot at the chosen moment, with the path of its platform",
       (look, size) => this.draw(look, size),
+      undefined,
+      viewOf(this.way, centersOf(cycles.poses)),
     );
     this.side = html("div", { class: "view-side" });
     this.slider = this.sliderFor(run.times.length);
@@ -62,9 +70,21 @@ export class PathView {
       "Drag to turn. Click the picture, then: wheel or + and − to zoom, arrow keys to turn, double click or 0 for the " +
         "first view.",
     );
-    const controls = html("div", { class: "toolbar" }, this.turnable.buttons());
+    const controls = html("div", { class: "toolbar" }, this.turnable.buttons(), this.closeUpSwitch());
     const picture = html("div", null, controls, this.turnable.element, this.timeBar(), this.legend(), hint);
     return html("div", { class: "view" }, picture, this.side);
+  }
+
+  closeUpSwitch() {
+    const box = html("input", {
+      type: "checkbox",
+      name: "close-up",
+      onchange: () => {
+        this.isClose = box.checked;
+        this.turnable.redraw();
+      },
+    });
+    return html("label", null, box, "Close to the path");
   }
 
   sliderFor(count) {
@@ -140,7 +160,7 @@ export class PathView {
   }
 
   draw(look, size) {
-    const screen = projection(look, this.scene, size);
+    const screen = projection(look, this.isClose ? this.closeUp : this.scene, size);
     const { radius } = this.scene;
     const bar = {
       className: "robot",
@@ -155,6 +175,7 @@ export class PathView {
       ...this.ends.map(([name, pose]) => paintGhost(platformAt(this.run.data.robot, pose), screen, name)),
       ...this.lines(screen),
       ...this.labels(screen),
+      ...(this.robot ? [dot(screen.at(this.robot.origin), "now")] : []),
       ...paintScaleBars([bar], size),
     ];
   }
@@ -165,7 +186,6 @@ export class PathView {
     return [
       this.way && line([this.way.from, this.way.to], "straight"),
       ...this.paths.map(({ name, points }) => line(points, name)),
-      this.robot && dot(screen.at(this.robot.origin), "now"),
     ].filter(Boolean);
   }
 
@@ -178,17 +198,26 @@ export class PathView {
       if (same) same.names.push(name);
       else places.push({ point, names: [name] });
     }
-    return places.flatMap(({ point, names }) => {
-      const { x, y } = screen.at(point);
-      const text = svg(
-        "text",
-        { class: "place", x: (x + 9).toFixed(1), y: (y - 7).toFixed(1) },
-        names.join(", "),
-      );
-      return [dot({ x, y }, names[0]), text];
-    });
+    const shown = places.map((place) => ({ ...place, ...screen.at(place.point) }));
+    const middle = shown.reduce((sum, { x }) => sum + x, 0) / Math.max(1, shown.length);
+    return shown.flatMap(({ x, y, names }) => [dot({ x, y }, names[0]), label({ x, y }, names, x < middle)]);
   }
 }
+
+// Beside a place, on the side that is away from the others.
+const label = ({ x, y }, names, isLeft) =>
+  svg(
+    "text",
+    {
+      class: "place",
+      x: (x + (isLeft ? -9 : 9)).toFixed(1),
+      y: (y - 7).toFixed(1),
+      "text-anchor": isLeft ? "end" : "start",
+    },
+    names.join(", "),
+  );
+
+const count = (value) => (isNumber(value) ? String(value) : MISSING);
 
 const dot = ({ x, y }, name) =>
   svg("circle", {
@@ -208,6 +237,33 @@ function sceneOf(robot, ends, centers) {
   return { center, radius: MARGIN * radius };
 }
 
+// Of the size of the path, but not so near that nothing of the robot is seen.
+function closeUpOf(ends, centers, scene) {
+  const points = [...centers.filter(Boolean), ...ends.map(([, { translation_m: point }]) => point)];
+  const { center, radius } = enclosing(points);
+  return { center, radius: Math.max(CLOSE_MARGIN * radius, CLOSEST * scene.radius) };
+}
+
+// A first view in which the path is seen in full: along the normal of the plane in which it bends, from above but not
+// from straight above; of a straight path, across it.
+export function viewOf(way, centers) {
+  if (!way) return START;
+  const along = vec3.subtract([], way.to, way.from);
+  const away = deviations(centers, way);
+  const farthest = centers[away.indexOf(away.reduce((a, b) => Math.max(a, b ?? 0), 0))] ?? way.from;
+  const bend = vec3.cross([], along, vec3.subtract([], farthest, way.from));
+  const isBent = vec3.length(bend) > LEAST_BEND * vec3.squaredLength(along);
+  const normal = isBent ? bend : vec3.cross([], along, [0, 0, 1]);
+  if (!(vec3.length(normal) > 0)) return START;
+  const toEye = vec3.dot(normal, screenAxes(START).toward) < 0 ? vec3.negate([], normal) : normal;
+  const elevation = Math.asin(toEye[2] / vec3.length(toEye));
+  return {
+    ...START,
+    azimuth: Math.atan2(toEye[1], toEye[0]),
+    elevation: Math.max(ELEVATION.least, Math.min(ELEVATION.most, elevation)),
+  };
+}
+
 // What the run knew at a moment.
 function momentTable({ data, times }, index) {
   const { cycles, document } = data;
@@ -220,7 +276,7 @@ function momentTable({ data, times }, index) {
     row("time", times[index], "s"),
     row("cycle", index + 1, "", String(index + 1)),
     row("error", value("error", error), error.unit),
-    row("edges seen", value("edges"), ""),
+    row("edges seen", value("edges"), "", count(value("edges"))),
     ...["x", "y", "z"].map((name, axis) =>
       row(`platform ${name}`, MM.scale * center[axis], "mm", fixed(MM.scale * center[axis], 2)),
     ),

@@ -11,8 +11,12 @@ export function renderSettings(section, { data }) {
     html(
       "div",
       { class: "tables" },
-      settings.length > 0 && words("Settings", settings),
-      words("Provenance", provenance(data)),
+      html(
+        "div",
+        null,
+        settings.length > 0 && words("Settings", settings),
+        words("Provenance", provenance(data)),
+      ),
       data.document && words("The result", resultRows(data.document)),
     ),
   );

@@ -50,6 +50,17 @@ function withRange(clauses) {
   });
 }
 
+// Spans without the overlaps and the gaps of at most `gap` (s) between them, the earliest first.
+export function mergedSpans(spans, gap) {
+  const merged = [];
+  for (const { from, to } of [...spans].sort((a, b) => a.from - b.from)) {
+    const last = merged[merged.length - 1];
+    if (last && from - last.to <= gap) last.to = Math.max(last.to, to);
+    else merged.push({ from, to });
+  }
+  return merged;
+}
+
 // The median time (s) from cycle to cycle.
 export function periodOf(times) {
   const periods = times.slice(1).map((time, index) => time - times[index]);

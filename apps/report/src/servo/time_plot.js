@@ -2,11 +2,13 @@
 import * as Plot from "@observablehq/plot";
 import { isNumber, significant, tick, withUnit } from "../shared/format.js";
 import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
+import { roundBelow } from "../shared/scale_bars.js";
 import { thinned } from "./thinning.js";
 
 // A curve keeps its extremes in each of this many columns of the drawing.
 const PIXELS_A_COLUMN = 2;
 const LOG_DECADES = 6; // at most
+const FEW_DECADES = 50; // most over least
 const MARGINS = { marginLeft: 52, marginRight: 12, marginTop: 22, marginBottom: 36 };
 
 // run: {times, moment}; curves: [{label, color, values, width?, dash?, faint?}]; options: {description, label (of y), unit,
@@ -25,45 +27,35 @@ export function timePlot(run, curves, options) {
 
 function draw({ times }, curves, options, width) {
   const { height, label, unit, log, levels = [], spans = [] } = options;
-  const rows = curves.flatMap((curve) => rowsOf(times, curve, Math.ceil(width / PIXELS_A_COLUMN), log));
-  const said = ({ curve, time, value }) =>
-    `${curve.label}: ${withUnit(significant(value), unit)}\nat ${significant(time)} s`;
+  const columns = Math.ceil(width / PIXELS_A_COLUMN);
+  const drawn = curves.map((curve) => ({ curve, rows: rowsOf(times, curve, columns, log) }));
+  const rows = drawn.flatMap((each) => each.rows);
   return plot(options.description, {
     width,
     height,
     ...MARGINS,
     x: timeAxis(times),
-    y: { ...valueAxis(rows, options), label: label ? withUnit(`${label},`, unit).replace(/,$/, "") : unit },
-    color: { type: "identity" },
+    y: { ...valueAxis(rows, options), label: label ?? unit },
     marks: [
-      spans.length > 0 && Plot.rectX(spans, { x1: "from", x2: "to", fill: "var(--care)", fillOpacity: 0.13 }),
-      levels.map((level) => levelMark(level)),
-      Plot.line(rows, {
-        x: "time",
-        y: "value",
-        z: ({ curve }) => curve.label,
-        stroke: ({ curve }) => curve.color,
-        strokeWidth: 1.8,
-        curve: "linear",
-        render: asStyled,
-      }),
-      Plot.tip(rows, Plot.pointer({ x: "time", y: "value", title: said, ...TIP })),
-    ].flat(),
+      Plot.rectX(spans, { x1: "from", x2: "to", fill: "var(--care)", fillOpacity: 0.13 }),
+      levels.map(levelMark),
+      drawn.map(curveMark),
+      Plot.tip(rows, Plot.pointer({ x: "time", y: "value", title: (row) => tipOf(row, unit), ...TIP })),
+    ],
+  });
+}
+
+const curveMark = ({ curve, rows }) =>
+  Plot.line(rows, {
+    x: "time",
+    y: "value",
+    stroke: curve.color,
+    strokeWidth: curve.width ?? 1.8,
+    strokeDasharray: curve.dash,
   });
 
-  // Widths and dashes are no channels of a line.
-  function asStyled(index, scales, values, dimensions, context, next) {
-    const group = next(index, scales, values, dimensions, context);
-    [...group.children].forEach((path) => {
-      const { curve } = rows[path.__data__?.[0]] ?? {};
-      if (!curve) return;
-      if (curve.width) path.setAttribute("stroke-width", curve.width);
-      if (curve.dash) path.setAttribute("stroke-dasharray", curve.dash);
-      if (curve.faint) path.setAttribute("stroke-opacity", 0.55);
-    });
-    return group;
-  }
-}
+const tipOf = ({ curve, time, value }, unit) =>
+  `${curve.label}: ${withUnit(significant(value), unit)}\nat ${significant(time)} s`;
 
 const rowsOf = (times, curve, columns, log) =>
   thinned(times, curve.values, columns).map(({ time, value }) => ({
@@ -87,9 +79,28 @@ function valueAxis(rows, { log, zero, domain, ticks = 5 }) {
   const shared = { grid: true, labelArrow: false, tickFormat: tick, ticks };
   if (domain) return { ...shared, domain };
   if (!log) return { ...shared, zero, nice: true };
-  const values = rows.map(({ value }) => value).filter(isNumber);
-  const most = Math.max(...values);
-  const least = Math.max(Math.min(...values), most / 10 ** LOG_DECADES);
-  const wide = most > 3 * least ? [least, most] : [least / 2, 2 * most];
-  return { ...shared, type: "log", domain: values.length ? wide : [0.1, 1], nice: true, clamp: true };
+  const [least, most] = logDomain(rows.map(({ value }) => value).filter(isNumber));
+  return { ...shared, type: "log", domain: [least, most], ticks: logTicks(least, most), clamp: true };
+}
+
+// Ends of a logarithmic axis: at 1, 2 or 5 times a power of ten.
+export function logDomain(values) {
+  const most = values.length ? values.reduce((a, b) => Math.max(a, b)) : 1;
+  const smallest = values.length ? values.reduce((a, b) => Math.min(a, b)) : most;
+  const least = Math.max(smallest, most / 10 ** LOG_DECADES);
+  const below = roundBelow(least);
+  const above = [1, 2, 2.5, 5, 10]
+    .map((factor) => factor * roundBelow(most))
+    .find((end) => end >= most * (1 - 1e-9));
+  return above > 1.5 * below ? [below, above] : [below / 2, 2 * above];
+}
+
+// Powers of ten; with few of them 2 and 5 times those too.
+export function logTicks(least, most) {
+  const [from, to] = [Math.floor(Math.log10(least)), Math.ceil(Math.log10(most))];
+  const powers = Array.from({ length: to - from + 1 }, (_, index) => from + index);
+  const steps = most / least > FEW_DECADES ? [1] : [1, 2, 5];
+  return powers
+    .flatMap((power) => steps.map((step) => Number((step * 10 ** power).toPrecision(1))))
+    .filter((value) => value >= least * (1 - 1e-9) && value <= most * (1 + 1e-9));
 }

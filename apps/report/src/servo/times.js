@@ -1,6 +1,6 @@
 // How long the computer took in each cycle.
 import * as Plot from "@observablehq/plot";
-import { bin, quantileSorted } from "d3";
+import { bin } from "d3";
 import { copyable } from "../shared/copy_table.js";
 import { append, figure, html, muted, table } from "../shared/dom.js";
 import { isNumber, percent, significant, tick } from "../shared/format.js";
@@ -40,24 +40,27 @@ export function renderTimes(section, { data, times }) {
   );
 }
 
+// The smallest of the values that no more than this share of them stays above.
+export const quantile = (sorted, share) => sorted[Math.max(0, Math.ceil(share * sorted.length - 1e-9) - 1)];
+
 const sortedTimes = (values) => Float64Array.from((values ?? []).filter(isNumber)).sort();
 
 const shares = (kinds, period) =>
   kinds
     .map(
       ({ label, sorted }) =>
-        `${label.toLowerCase()} took ${percent(quantileSorted(sorted, 0.99) / period)} of that at most`,
+        `${label.toLowerCase()} took ${percent(quantile(sorted, 0.99) / period)} of that at most`,
     )
     .join(", ") + ", in 99 % of the cycles";
 
 function quantileTable(kinds) {
   const columns = [
     { label: "Time of a cycle", text: true, cell: ({ label }) => label },
-    { label: "Unit", text: true, cell: ({ sorted }) => shortTime(quantileSorted(sorted, 0.5)).unit },
+    { label: "Unit", text: true, cell: ({ sorted }) => shortTime(quantile(sorted, 0.5)).unit },
     ...QUANTILES.map(([label, share]) => ({
       label,
       cell: ({ sorted }) => {
-        const value = shortTime(quantileSorted(sorted, 0.5)).scale * quantileSorted(sorted, share);
+        const value = shortTime(quantile(sorted, 0.5)).scale * quantile(sorted, share);
         return html("data", { value: String(value) }, significant(value));
       },
     })),
@@ -68,7 +71,7 @@ function quantileTable(kinds) {
 }
 
 function histogram({ label, sorted }) {
-  const { unit, scale } = shortTime(quantileSorted(sorted, 0.5));
+  const { unit, scale } = shortTime(quantile(sorted, 0.5));
   const bars = barsOf(Array.from(sorted, (value) => scale * value));
   return figure(
     null,

@@ -21,14 +21,19 @@ export function zoomablePicture(address, size, description, stage) {
     background(address, size),
     over,
   );
-  const onZoom = (times) => {
-    picture.classList.toggle("pixels", times > PIXELS_SHOWN_FROM);
+  let times = 1;
+  const measure = () =>
     picture.style.setProperty("--unit", size.width / times / (stage.clientWidth || size.width));
+  const onZoom = (zoomed) => {
+    times = zoomed;
+    picture.classList.toggle("pixels", times > PIXELS_SHOWN_FROM);
+    measure();
   };
   // Pixel (0, 0) has its centre at the origin, so the picture begins half a pixel before it.
   const zoom = panZoom(picture, { x: -0.5, y: -0.5, ...size }, onZoom);
   stage.replaceChildren(picture);
   zoom.reset();
+  new ResizeObserver(measure).observe(picture);
   return { picture, over, zoom };
 }
 
