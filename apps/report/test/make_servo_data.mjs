@@ -1,6 +1,7 @@
-// Writes the data of a servo page as the program would: node make_servo_data.mjs [CYCLES] > DATA.json
+// Writes the data of a servo page as the program would: node make_servo_data.mjs [CYCLES | stopped] > DATA.json
 // servo_data.json is what it writes for 60 cycles. The run is simulated here, simply: an edge-based law (all edges of a
 // hexapod that one camera sees, derivatives by differences) with a speed limit, a leg that hides for a while, and noise.
+// "stopped" is a run that ends in its second cycle, of which little is known.
 import { deflateSync } from "node:zlib";
 import {
   cross,
@@ -16,7 +17,8 @@ import {
   times,
 } from "./servo_geometry.mjs";
 
-const CYCLES = Number(process.argv[2] ?? 60);
+const IS_STOPPED = process.argv[2] === "stopped";
+const CYCLES = IS_STOPPED ? 2 : Number(process.argv[2] ?? 60);
 const DURATION_S = 2.4; // in which the error falls to its noise
 const PERIOD_S = CYCLES > 120 ? 0.02 : DURATION_S / 60;
 const GAIN_PER_S = 7.2 / (CYCLES * PERIOD_S);
@@ -358,5 +360,32 @@ function pageData() {
   };
 }
 
+// No goal pose, no truth, no pictures, and in the second cycle nothing was seen.
+function stoppedData() {
+  const { cycles, document, ...data } = pageData();
+  const unseen = ["error", "edge_error_px", "direction_error_rad", "conditioning", "smallest_singular_value"];
+  const blank = unseen.map((name) => [name, [cycles[name][0], null]]);
+  const rows = ["edge_errors_px", "direction_errors_rad"].map((name) => [
+    name,
+    [cycles[name][0], cycles[name][0].map(() => null)],
+  ]);
+  return {
+    ...data,
+    document: {
+      ...document,
+      status: "stale-images",
+      reason: "no fresh image: the newest is 0.12 s old",
+      final_error: null,
+      final_edge_error_px: null,
+      final_direction_error_rad: null,
+      final_pose_error: null,
+      warnings: ["the run ended before anything was learnt from it"],
+    },
+    goal: { base_from_platform: null, joint_readings_m: null },
+    cycles: { ...cycles, ...Object.fromEntries([...blank, ...rows]), edges: [12, 0], true_poses: null },
+    pictures: [],
+  };
+}
+
 const rounded = (_, value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
-console.log(JSON.stringify(pageData(), rounded));
+console.log(JSON.stringify(IS_STOPPED ? stoppedData() : pageData(), rounded));

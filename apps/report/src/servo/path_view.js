@@ -21,6 +21,7 @@ const SAME_PLACE = 0.02;
 const CLOSEST = 0.02;
 const CLOSE_MARGIN = 1.5; // of the path's radius
 const LEAST_BEND = 0.01; // of the way's length
+const LEVEL = 0.1; // upward part of a direction to the eye that counts as neither from above nor from below
 const ELEVATION = { least: (20 * Math.PI) / 180, most: (60 * Math.PI) / 180 };
 
 export const canDrawPath = ({ robot, cycles }) =>
@@ -255,8 +256,10 @@ export function viewOf(way, centers) {
   const isBent = vec3.length(bend) > LEAST_BEND * vec3.squaredLength(along);
   const normal = isBent ? bend : vec3.cross([], along, [0, 0, 1]);
   if (!(vec3.length(normal) > 0)) return START;
-  const toEye = vec3.dot(normal, screenAxes(START).toward) < 0 ? vec3.negate([], normal) : normal;
-  const elevation = Math.asin(toEye[2] / vec3.length(toEye));
+  const unit = vec3.normalize([], normal);
+  const isAbove = Math.abs(unit[2]) > LEVEL ? unit[2] > 0 : vec3.dot(unit, screenAxes(START).toward) > 0;
+  const toEye = isAbove ? unit : vec3.negate([], unit);
+  const elevation = Math.asin(toEye[2]);
   return {
     ...START,
     azimuth: Math.atan2(toEye[1], toEye[0]),

@@ -89,9 +89,7 @@ export function logDomain(values) {
   const smallest = values.length ? values.reduce((a, b) => Math.min(a, b)) : most;
   const least = Math.max(smallest, most / 10 ** LOG_DECADES);
   const below = roundBelow(least);
-  const above = [1, 2, 2.5, 5, 10]
-    .map((factor) => factor * roundBelow(most))
-    .find((end) => end >= most * (1 - 1e-9));
+  const above = Number((1 / roundBelow(1 / most)).toPrecision(1));
   return above > 1.5 * below ? [below, above] : [below / 2, 2 * above];
 }
 
