@@ -27,7 +27,8 @@ const SECTIONS = {
   settings: [() => true, renderSettings],
 };
 
-const data = embeddedData();
+// Members that are null are as good as missing.
+const data = Object.fromEntries(Object.entries(embeddedData()).filter(([, value]) => value !== null));
 const times = data.cycles?.time_s ?? [];
 const run = { data, times, moment: new Moment(times) };
 const program = data.program_version && `legible ${data.program_version}`;

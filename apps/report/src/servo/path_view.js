@@ -22,7 +22,7 @@ const CLOSEST = 0.02;
 const CLOSE_MARGIN = 1.5; // of the path's radius
 const LEAST_BEND = 0.01; // of the way's length
 const LEVEL = 0.1; // upward part of a direction to the eye that counts as neither from above nor from below
-const ELEVATION = { least: (20 * Math.PI) / 180, most: (60 * Math.PI) / 180 };
+const ELEVATION = { least: (20 * Math.PI) / 180, most: (48 * Math.PI) / 180 };
 
 export const canDrawPath = ({ robot, cycles }) =>
   Boolean(robot?.legs?.length && cycles?.poses?.some(Boolean));
