@@ -186,6 +186,8 @@ export class PathView {
       svg("path", { class: `way ${name}`, d: path(points.map(screen.at), false) });
     return [
       this.way && line([this.way.from, this.way.to], "straight"),
+      // So that the paths stand out from the platform.
+      this.paths.length > 0 && line(this.paths[0].points, "halo"),
       ...this.paths.map(({ name, points }) => line(points, name)),
     ].filter(Boolean);
   }
