@@ -39,4 +39,25 @@ std::string RenderCalibrationPage(const nlohmann::json& data);
 // The picture of the robot takes errors as displacements of the platform in the axes of base.
 std::string RenderAccuracyPage(const nlohmann::json& data);
 
+// The servo report with `data` embedded as JSON; a part without data is left out. SI units; legs and edges
+// count from 1. Its members, all optional:
+//   title, program_version, model, rig, log   texts
+//   document   what `legible servo --format json` prints; its `unit` (px, rad or m) is that of its errors
+//   settings   {name: what it was}, in words, units with them
+//   robot      {legs: [{base_joint_m, platform_joint_m, radius_m, joint_range_m: [least, largest]}],
+//              speed_limit_m_per_s}
+//   goal       {base_from_platform: {rotation_xyzw, translation_m}, joint_readings_m: [6]}, as far as known
+//   cycles     one entry a cycle in each of: time_s (from the start of the run, growing); error, tolerance
+//              (in document.unit), edge_error_px, direction_error_rad; gain_per_s, conditioning,
+//              smallest_singular_value, robot_conditioning; speed_factor, singularity_factor (1: not slowed);
+//              edges (how many were seen); look_s, law_s; limits (clauses joined by "; ", "": none);
+//              joint_speeds_m_per_s, joint_readings_m, direction_errors_rad ([6] each); edge_errors_px
+//              ([12]: leg 1 edge 1, leg 1 edge 2, ...; null: not seen); poses (base_from_platform by the
+//              readings), true_poses
+//   pictures   [{label, time_s, width_px, height_px, image (a data: address), current, desired:
+//              [{leg, edge, points: [[x, y]]}]}]
+// The page draws the deviation of the path from the straight line from the first pose to the goal, or, where
+// the goal's pose is not known, to the last pose.
+std::string RenderServoPage(const nlohmann::json& data);
+
 }  // namespace legible

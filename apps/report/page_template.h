@@ -12,5 +12,6 @@ struct PageTemplate {
 
 PageTemplate CalibrationPage();
 PageTemplate AccuracyPage();
+PageTemplate ServoPage();
 
 }  // namespace legible

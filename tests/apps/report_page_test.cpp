@@ -101,12 +101,18 @@ INSTANTIATE_TEST_SUITE_P(
              RenderAccuracyPage,
              {"Summary", "The robot and its errors", "Largest errors", "Where the error comes from",
               "Indices", "All poses", "Map of the errors", "Do the indices tell the errors?",
-              "Over the workspace", "Conventions, definitions, provenance"}}),
+              "Over the workspace", "Conventions, definitions, provenance"}},
+        Page{"Servo",
+             RenderServoPage,
+             {"Verdict", "Errors", "Speeds and readings of the legs", "Conditioning",
+              "Gain, and what slowed the robot", "The path in space",
+              "Pictures with current and desired edges", "Computing times", "Settings and provenance"}}),
     [](const auto& page) { return page.param.name; });
 
 TEST(ReportPages, AreDifferentPages) {
   EXPECT_THAT(RenderCalibrationPage(json::object()), HasSubstr("<title>Calibration report</title>"));
   EXPECT_THAT(RenderAccuracyPage(json::object()), HasSubstr("<title>Accuracy report</title>"));
+  EXPECT_THAT(RenderServoPage(json::object()), HasSubstr("<title>Servo report</title>"));
 }
 
 }  // namespace

@@ -1,24 +1,8 @@
 // Opens an accuracy page, any that the program wrote, in a headless Chromium: node accuracy_page.browser.js PAGE.html
 // What has to be seen follows from the data in the page. Exits with 1 and says what is wrong.
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
 import { significant } from "../src/shared/format.js";
-
-const BROWSER = process.env.CHROMIUM || "/usr/bin/chromium";
-const QUIET = [
-  "--no-sandbox",
-  "--disable-gpu",
-  "--disable-quic",
-  "--no-first-run",
-  "--disable-background-networking",
-  "--disable-component-update",
-  "--disable-sync",
-];
-const DRAWN_MS = 15000;
-const WIDTHS = [1280, 400];
+import { checkInBrowser, checkSectionsDrawn, expectShapes } from "./page_in_browser.js";
 
 const partOf = (whole, path) => path.split(".").reduce((part, name) => part?.[name], whole);
 
@@ -27,28 +11,6 @@ function expectedText(document, index, path) {
   const inDocument = /^document\.(.+)$/.exec(path);
   const value = inDocument ? partOf(document, inDocument[1]) : partOf(document.poses[index], path);
   return significant(value);
-}
-
-// Opens the page; returns it with what went wrong in it so far.
-async function open(browser, address, options) {
-  const context = await browser.newContext(options);
-  const faults = [];
-  context.on("request", (request) => {
-    if (request.url() !== address) faults.push(`asked for ${request.url()}`);
-  });
-  const page = await context.newPage();
-  page.on("console", (message) => message.type() === "error" && faults.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => faults.push(`page: ${error.stack}`));
-  await page.goto(address);
-  return { page, context, faults };
-}
-
-// Drawings come a frame after their place: waits for them.
-async function expectShapes(page, selector, least, what) {
-  const enough = ([each, count]) => document.querySelectorAll(each).length >= count;
-  await page.waitForFunction(enough, [selector, least], { timeout: DRAWN_MS }).catch(() => {
-    assert.fail(`${what}: fewer than ${least} of "${selector}"`);
-  });
 }
 
 async function checkSections(page, data) {
@@ -71,9 +33,7 @@ async function checkSections(page, data) {
     await expectShapes(page, "#workspace .plot svg", 1, "the workspace");
   if (found.intersection?.position?.vertices?.length)
     await expectShapes(page, "#poses .turnable .polyhedron", 1, "the common errors");
-  assert.equal(await page.locator("section .notice", { hasText: "could not be drawn" }).count(), 0);
-  const hidden = await page.locator("main > section[hidden]").evaluateAll((all) => all.map(({ id }) => id));
-  for (const id of hidden) assert.equal(await page.locator(`nav a[href="#${id}"]`).isVisible(), false, id);
+  await checkSectionsDrawn(page);
 }
 
 // The numbers of the chosen pose, as a text that differs from pose to pose.
@@ -149,58 +109,9 @@ async function checkTurning(page, robot) {
   await changed(turned);
 }
 
-async function checkOverflow(page, width) {
-  const [content, room] = await page.evaluate(() => [
-    document.documentElement.scrollWidth,
-    window.innerWidth,
-  ]);
-  assert.ok(content <= room, `at ${width} px the page is ${content} px wide`);
-}
-
-// What only a slip can put on the page, unless the data say it.
-async function checkText(page, data) {
-  const [text, given] = [await page.locator("body").innerText(), JSON.stringify(data)];
-  for (const slip of ["NaN", "undefined", "[object", "null"])
-    if (!given.replaceAll(":null", "").includes(slip)) assert.ok(!text.includes(slip), `"${slip}" is shown`);
-}
-
-async function checkPage(browser, address, width, colorScheme) {
-  const { page, context, faults } = await open(browser, address, {
-    viewport: { width, height: 900 },
-    colorScheme,
-  });
-  const data = await page.evaluate(() => JSON.parse(document.getElementById("data").textContent));
+async function checkPage(page, data) {
   await checkSections(page, data);
   await checkPoses(page, data.document ?? {});
-  await checkOverflow(page, width);
-  await checkText(page, data);
-  assert.deepEqual(faults, [], `at ${width} px, ${colorScheme}`);
-  await context.close();
-  return data;
 }
 
-async function run(path) {
-  if (!path) throw new Error("usage: node accuracy_page.browser.js PAGE.html");
-  if (!existsSync(BROWSER))
-    throw new Error(
-      `there is no Chromium at ${BROWSER}: install it (scripts/install_dependencies.sh) or set CHROMIUM`,
-    );
-  const address = pathToFileURL(resolve(path)).href;
-  const browser = await chromium.launch({ executablePath: BROWSER, args: QUIET });
-  try {
-    for (const colorScheme of ["light", "dark"])
-      for (const width of WIDTHS) {
-        await checkPage(browser, address, width, colorScheme);
-        console.log(`${path}: as it should be at ${width} px, ${colorScheme}`);
-      }
-  } finally {
-    await browser.close();
-  }
-}
-
-run(process.argv[2]).catch((error) => {
-  console.error(
-    error instanceof assert.AssertionError ? `${process.argv[2]}: ${error.message}` : error.message,
-  );
-  process.exitCode = 1;
-});
+checkInBrowser(process.argv[2], checkPage);

@@ -1,15 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  ellipseOf,
-  isFront,
-  magnification,
-  principalSection,
-  roundBelow,
-  scaleBar,
-} from "../src/accuracy/error_geometry.js";
-import { movedBy, robotAt, twistOf } from "../src/accuracy/robot_geometry.js";
-import { START, enclosing, projection, screenAxes, turned, zoomed } from "../src/accuracy/turntable.js";
+import { ellipseOf, isFront, magnification, principalSection } from "../src/accuracy/error_geometry.js";
+import { movedBy, robotAt, twistOf } from "../src/shared/robot_geometry.js";
+import { roundBelow, scaleBar } from "../src/shared/scale_bars.js";
+import { START, enclosing, projection, screenAxes, turned, zoomed } from "../src/shared/turntable.js";
 
 const close = (found, wanted, tolerance = 1e-9) => {
   assert.equal(found.length, wanted.length);

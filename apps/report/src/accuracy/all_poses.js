@@ -1,7 +1,7 @@
 // All poses in one table, and what two of them have in common.
 import { copyable } from "../shared/copy_table.js";
 import { append, html, table } from "../shared/dom.js";
-import { barred, number } from "./numbers.js";
+import { barred, number } from "../shared/numbers.js";
 import { statusOf } from "./status.js";
 import { SIZES, unitsOf } from "./units.js";
 

@@ -1,17 +1,9 @@
 // Errors as shapes: how much to magnify them, how they look from a side. No page elements here.
 import { vec3 } from "gl-matrix";
+import { roundBelow } from "../shared/scale_bars.js";
 
-const STEPS = [1, 2, 5];
 // Poses whose errors differ by no more than this are magnified alike, so that their pictures can be compared.
 const COMPARABLE = 4;
-
-// The largest 1, 2 or 5 times a power of ten that does not exceed value.
-export function roundBelow(value) {
-  if (!(value > 0) || !Number.isFinite(value)) return 1;
-  const power = 10 ** Math.floor(Math.log10(value) + 1e-12);
-  const step = [...STEPS].reverse().find((each) => each * power <= value * (1 + 1e-12)) ?? 1;
-  return Number((step * power).toPrecision(1));
-}
 
 // The magnification at which an error becomes about as large as `room`; `all` are the errors of all poses (same unit).
 export function magnification(error, all, room) {
@@ -19,12 +11,6 @@ export function magnification(error, all, room) {
     (other) => other > 0 && other < COMPARABLE * error && error < COMPARABLE * other,
   );
   return roundBelow(room / Math.max(error, ...comparable));
-}
-
-// {value, length}: a round value whose bar is at most `longest` px.
-export function scaleBar(pixelsPerUnit, longest) {
-  const value = roundBelow(longest / pixelsPerUnit);
-  return { value, length: value * pixelsPerUnit };
 }
 
 // The outline of an ellipsoid seen along the screen's third axis: {major, minor, angle (rad, from right to up)}, in the

@@ -2,7 +2,7 @@
 import { copyable } from "../shared/copy_table.js";
 import { append, html, muted, table } from "../shared/dom.js";
 import { isNumber } from "../shared/format.js";
-import { barred, number } from "./numbers.js";
+import { barred, number } from "../shared/numbers.js";
 import { ERRORS, unitsOf } from "./units.js";
 
 export function renderErrors(section, { data, pose }) {

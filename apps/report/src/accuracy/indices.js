@@ -2,7 +2,7 @@
 import { copyable } from "../shared/copy_table.js";
 import { append, html, muted, table } from "../shared/dom.js";
 import { MISSING, isNumber, percent, sentence } from "../shared/format.js";
-import { number, withUnit } from "./numbers.js";
+import { number, withUnit } from "../shared/numbers.js";
 import { unitsOf } from "./units.js";
 
 // threePoint: that of the matrices that take three points of the platform to the legs, which have a row of their own.

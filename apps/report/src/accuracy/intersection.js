@@ -1,11 +1,12 @@
 // The errors that two poses have in common, inside those of each.
 import { append, figure, html } from "../shared/dom.js";
 import { isNumber } from "../shared/format.js";
-import { number, withUnit } from "./numbers.js";
-import { paintPolyhedron, paintScaleBars } from "./paint_errors.js";
-import { paintAxes } from "./paint_robot.js";
-import { TurnableView } from "./turnable_view.js";
-import { enclosing, projection } from "./turntable.js";
+import { number, withUnit } from "../shared/numbers.js";
+import { paintAxes } from "../shared/paint_robot.js";
+import { paintScaleBars } from "../shared/scale_bars.js";
+import { TurnableView } from "../shared/turnable_view.js";
+import { enclosing, projection } from "../shared/turntable.js";
+import { paintPolyhedron } from "./paint_errors.js";
 import { SIZES, unitsOf } from "./units.js";
 
 const MARGIN = 1.15;

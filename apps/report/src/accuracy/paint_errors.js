@@ -1,11 +1,9 @@
 // Errors as SVG: polyhedra, ellipsoids, arrows, ghosts of the platform, scale bars.
 import { vec3 } from "gl-matrix";
 import { svg } from "../shared/dom.js";
-import { isNumber, significant } from "../shared/format.js";
-import { ellipseOf, isFront, principalSection, scaleBar } from "./error_geometry.js";
-import { arrow, outline, path } from "./paint_robot.js";
-
-const LONGEST_BAR = 150;
+import { isNumber } from "../shared/format.js";
+import { arrow, outline, path } from "../shared/paint_robot.js";
+import { ellipseOf, isFront, principalSection } from "./error_geometry.js";
 
 // shape: {vertices, facets}; magnified: metres on the scene for one unit of the vertices.
 export function paintPolyhedron(shape, origin, magnified, screen, className = "") {
@@ -59,22 +57,4 @@ export function paintDirection(direction, size, origin, magnified, screen) {
   if (!direction?.every?.(isNumber) || !isNumber(size)) return null;
   const end = screen.at(vec3.scaleAndAdd([], origin, direction, size * magnified));
   return svg("g", { class: "direction" }, arrow(screen.at(origin), end));
-}
-
-// The platform where a free motion takes it.
-export const paintGhost = (joints, screen) =>
-  svg("path", { class: "ghost", d: path(outline(joints.map(screen.at))) });
-
-// bars: [{pixelsPerUnit, unit, text(value with unit)}], from the lower left upward.
-export function paintScaleBars(bars, { height }) {
-  return bars.map(({ pixelsPerUnit, unit, text, className }, index) => {
-    const { value, length } = scaleBar(pixelsPerUnit, LONGEST_BAR);
-    const y = height - 14 - 34 * index;
-    return svg(
-      "g",
-      { class: `scale-bar ${className}` },
-      svg("path", { d: `M14,${y - 5}v5h${length.toFixed(1)}v-5` }),
-      svg("text", { x: 14, y: y - 10 }, text(`${significant(value, 1)} ${unit}`)),
-    );
-  });
 }

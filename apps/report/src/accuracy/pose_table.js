@@ -2,7 +2,7 @@
 import { copyable } from "../shared/copy_table.js";
 import { html, table } from "../shared/dom.js";
 import { capitalized, fixed } from "../shared/format.js";
-import { number } from "./numbers.js";
+import { number } from "../shared/numbers.js";
 import { ERRORS, unitsOf } from "./units.js";
 
 const DECIMALS = 3;

@@ -1,19 +1,14 @@
 // The robot at the selected pose, with its magnified errors at the platform.
 import { append, html } from "../shared/dom.js";
 import { sentence, tick } from "../shared/format.js";
+import { paintAxes, paintGhost, paintNumbers, paintRobot } from "../shared/paint_robot.js";
+import { movedBy, robotAt, twistOf } from "../shared/robot_geometry.js";
+import { paintScaleBars } from "../shared/scale_bars.js";
+import { TurnableView } from "../shared/turnable_view.js";
+import { enclosing, projection } from "../shared/turntable.js";
 import { magnification } from "./error_geometry.js";
-import {
-  paintDirection,
-  paintEllipsoid,
-  paintGhost,
-  paintPolyhedron,
-  paintScaleBars,
-} from "./paint_errors.js";
-import { paintAxes, paintNumbers, paintRobot } from "./paint_robot.js";
+import { paintDirection, paintEllipsoid, paintPolyhedron } from "./paint_errors.js";
 import { poseTable } from "./pose_table.js";
-import { movedBy, robotAt, twistOf } from "./robot_geometry.js";
-import { TurnableView } from "./turnable_view.js";
-import { enclosing, projection } from "./turntable.js";
 import { metresPer, radiansPer, unitsOf } from "./units.js";
 
 // Of the scene's radius.

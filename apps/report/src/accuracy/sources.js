@@ -2,8 +2,8 @@
 import { copyable } from "../shared/copy_table.js";
 import { append, html, muted, table } from "../shared/dom.js";
 import { MISSING, capitalized, isNumber, sentence } from "../shared/format.js";
+import { number } from "../shared/numbers.js";
 import { parameterTitle } from "../shared/parameter_names.js";
-import { number } from "./numbers.js";
 import { SIZES, unitsOf } from "./units.js";
 
 const CONTRIBUTIONS_SHOWN = 12;

@@ -1,8 +1,8 @@
 // The headline figures of the selected pose, and what to be warned of.
 import { append, html, paragraph } from "../shared/dom.js";
 import { capitalized, isNumber, plural, sentence, tick } from "../shared/format.js";
+import { number, withUnit } from "../shared/numbers.js";
 import { inWords } from "../shared/parameter_names.js";
-import { number, withUnit } from "./numbers.js";
 import { statusOf } from "./status.js";
 import { unitsOf } from "./units.js";
 

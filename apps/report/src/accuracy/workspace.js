@@ -12,8 +12,8 @@ import {
   tick,
   withUnit,
 } from "../shared/format.js";
+import { estimate, number } from "../shared/numbers.js";
 import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
-import { estimate, number } from "./numbers.js";
 import { pretty } from "./units.js";
 
 const ROW_HEIGHT = 26;

@@ -1,9 +1,9 @@
 // The picture viewer: choose an image, see found points and predicted outlines over it, zoom and pan.
-import { append, html, muted, svg } from "../shared/dom.js";
+import { append, html, muted } from "../shared/dom.js";
 import { significant, withUnit } from "../shared/format.js";
+import { zoomablePicture } from "../shared/zoomable_picture.js";
 import { edgesOf, imagesOf, isOutlier, magnitudeQuantile, usedEdges, usedSamples } from "./observations.js";
 import { overlay, residualColor } from "./overlay.js";
-import { panZoom } from "./pan_zoom.js";
 import { pictureAddress } from "./picture_links.js";
 import { altText, captionOf, edgeTable } from "./picture_text.js";
 
@@ -183,25 +183,10 @@ class Viewer {
   drawPicture() {
     const image = this.images[this.index];
     const { width, height } = sizeOf(image);
-    this.overlayPlace = svg("g");
-    this.picture = svg(
-      "svg",
-      { tabindex: 0, role: "img", "aria-label": altText(image), style: `aspect-ratio:${width}/${height}` },
-      background(image, width, height),
-      this.overlayPlace,
-    );
-    // Pixel (0, 0) has its centre at the origin, so the picture begins half a pixel before it.
-    this.zoom = panZoom(this.picture, { x: -0.5, y: -0.5, width, height }, (zoom) =>
-      this.onZoom(zoom, width),
-    );
+    const size = { width, height };
+    const { picture, over, zoom } = zoomablePicture(image.picture, size, altText(image), this.stage);
+    Object.assign(this, { picture, overlayPlace: over, zoom });
     this.drawOverlay();
-    this.stage.replaceChildren(this.picture);
-    this.zoom.reset();
-  }
-
-  onZoom(zoom, width) {
-    this.picture.classList.toggle("pixels", zoom > 4);
-    this.picture.style.setProperty("--unit", width / zoom / (this.stage.clientWidth || width));
   }
 
   drawOverlay() {
@@ -237,12 +222,4 @@ function sizeOf(image) {
     width: Math.max(640, ...points.map(([x]) => x + 1)),
     height: Math.max(480, ...points.map(([, y]) => y + 1)),
   };
-}
-
-function background({ picture }, width, height) {
-  if (picture) return svg("image", { href: picture, x: -0.5, y: -0.5, width, height });
-  return [
-    svg("rect", { x: -0.5, y: -0.5, width, height, class: "no-picture" }),
-    svg("text", { x: width / 2, y: 28, class: "no-picture-text" }, "no picture in this report"),
-  ];
 }

@@ -1,36 +1,22 @@
 // The verdict in plain words, and the key figures.
-import { append, definitions, html, paragraph } from "../shared/dom.js";
+import { append, definitions } from "../shared/dom.js";
 import { MISSING, decimalsFor, fixed, isNumber, significant, withUnit } from "../shared/format.js";
+import { verdictBox } from "../shared/verdict_box.js";
 import { judge } from "./judgement.js";
 
-const SYMBOL = { good: "✓", care: "!", bad: "✕" };
-
 export function renderVerdict(section, data) {
-  const judgement = judge(data);
-  append(section, verdictBox(judgement), definitions(keyFigures(data.calibration ?? {}), "figures"));
-}
-
-function verdictBox({ level, headline, sentences, warnings, open, advice }) {
-  return html(
-    "div",
-    { class: `verdict ${level}`, role: "status" },
-    html("p", { class: "headline" }, html("span", { "aria-hidden": "true" }, SYMBOL[level]), headline),
-    sentences.map((text) => paragraph(text)),
-    list("What cannot be determined", open),
-    list("Look at", warnings),
-    list("What to do", advice),
+  const { open, warnings, advice, ...judgement } = judge(data);
+  const lists = [
+    ["What cannot be determined", open],
+    ["Look at", warnings],
+    ["What to do", advice],
+  ];
+  append(
+    section,
+    verdictBox({ ...judgement, lists }),
+    definitions(keyFigures(data.calibration ?? {}), "figures"),
   );
 }
-
-const list = (title, items) =>
-  items.length > 0 && [
-    html("h3", null, title),
-    html(
-      "ul",
-      null,
-      items.map((item) => html("li", null, item)),
-    ),
-  ];
 
 function keyFigures(calibration) {
   const { rms_px: fit, held_out: heldOut, edge_sigma_px: noise, camera, legs, time_s: time } = calibration;

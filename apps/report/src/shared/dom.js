@@ -4,7 +4,7 @@ import { isNumber } from "./format.js";
 // Appends what there is: null, undefined and false stand for nothing.
 export function append(element, ...children) {
   element.append(
-    ...children.flat().filter((child) => child !== null && child !== undefined && child !== false),
+    ...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false),
   );
   return element;
 }

@@ -1,7 +1,7 @@
 // The robot as SVG: plates, legs as shaded cylinders, axes, numbers of the joints; nearer things over farther ones.
 import { polygonHull } from "d3";
 import { vec3 } from "gl-matrix";
-import { svg } from "../shared/dom.js";
+import { svg } from "./dom.js";
 import { middle } from "./robot_geometry.js";
 
 // Legs are cut into pieces for sorting by depth: they pass in front of each other.
@@ -181,3 +181,7 @@ export function arrow(start, end) {
   });
   return svg("path", { d: path([start, end], false) + path([wing(1), end, wing(-1)], false) });
 }
+
+// The outline of a platform with its joints at these points.
+export const paintGhost = (joints, screen, name = "") =>
+  svg("path", { class: `ghost ${name}`.trim(), d: path(outline(joints.map(screen.at))) });

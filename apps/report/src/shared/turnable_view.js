@@ -1,5 +1,5 @@
 // A picture that can be turned and zoomed. What it shows is drawn anew as SVG for each view: no WebGL, prints sharply.
-import { html, svg } from "../shared/dom.js";
+import { html, svg } from "./dom.js";
 import { START, turned, zoomed } from "./turntable.js";
 
 const RADIANS_PER_PIXEL = 0.008;
@@ -8,11 +8,13 @@ const CLICK_ZOOM = 1.3;
 const HEIGHT = { least: 310, most: 540 };
 
 export class TurnableView {
-  // draw(view, size) -> SVG elements; share: height over width, as far as that is neither flat nor tall.
-  constructor(description, draw, share = 0.72) {
+  // draw(view, size) -> SVG elements; share: height over width, as far as that is neither flat nor tall; first: the view
+  // to begin with.
+  constructor(description, draw, share = 0.72, first = START) {
+    this.first = first;
     this.share = share;
     this.draw = draw;
-    this.view = START;
+    this.view = first;
     this.size = null;
     this.picture = svg("svg", { class: "turnable", tabindex: 0, role: "img", "aria-label": description });
     this.element = html("div", { class: "turnable-place" }, this.picture);
@@ -27,7 +29,7 @@ export class TurnableView {
     return [
       button("+", "Closer (+)", () => this.look(zoomed(this.view, CLICK_ZOOM))),
       button("−", "Farther (-)", () => this.look(zoomed(this.view, 1 / CLICK_ZOOM))),
-      button("Reset view", "As at first (0)", () => this.look(START)),
+      button("Reset view", "As at first (0)", () => this.look(this.first)),
     ];
   }
 
@@ -76,7 +78,7 @@ export class TurnableView {
       },
       { passive: false },
     );
-    picture.addEventListener("dblclick", () => this.look(START));
+    picture.addEventListener("dblclick", () => this.look(this.first));
     picture.addEventListener("keydown", (event) => this.onKey(event));
   }
 
@@ -88,7 +90,7 @@ export class TurnableView {
       ArrowDown: () => turned(this.view, 0, -KEY_STEP),
       "+": () => zoomed(this.view, CLICK_ZOOM),
       "-": () => zoomed(this.view, 1 / CLICK_ZOOM),
-      0: () => START,
+      0: () => this.first,
     };
     if (!views[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();

@@ -1,6 +1,6 @@
 // Numbers as elements that keep all their digits, for the copy button and for tests.
-import { barCell, html } from "../shared/dom.js";
-import { MISSING, isNumber, significant } from "../shared/format.js";
+import { barCell, html } from "./dom.js";
+import { MISSING, isNumber, significant } from "./format.js";
 
 // path: where in the selected pose the number stands, such as "max_error.position"; with a leading "document." where
 // in the document.
