@@ -8,6 +8,7 @@
 
 #include "apps/accuracy_command.h"
 #include "apps/option_checks.h"
+#include "apps/option_values.h"
 
 namespace legible {
 namespace {
@@ -34,25 +35,6 @@ Examples:
   legible accuracy result/model.yaml --session my-session --format csv --out errors.csv
   legible accuracy result/model.yaml --box reachable,rz=-0.1:0.1 --samples 1000000
   legible accuracy result/model.yaml --format html --out accuracy.html)";
-
-// The function's std::invalid_argument as the option's error.
-template <typename F>
-auto Parsed(const std::string& option, const F& parse) {
-  try {
-    return parse();
-  } catch (const std::invalid_argument& error) {
-    throw CLI::ValidationError(option, error.what());
-  }
-}
-
-CLI::Option* AddText(CLI::App& command, const std::string& name, const std::string& type,
-                     const std::function<void(const std::string&)>& take, const std::string& description) {
-  return command
-      .add_option_function<std::string>(
-          name, [name, take](const std::string& text) { Parsed(name, [&] { return take(text), 0; }); },
-          description)
-      ->type_name(type);
-}
 
 void AddPoseOptions(CLI::App& command, AccuracySettings& settings) {
   AddText(

@@ -5,32 +5,15 @@
 
 #include <algorithm>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
-#include "core/robots/gough_stewart.h"
+#include "apps/option_values.h"
 #include "datasets/text.h"
 
 namespace legible {
 namespace {
 
 constexpr char kReachable[] = "reachable";
-
-std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(separator, begin), text.size());
-    parts.emplace_back(Trimmed(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return parts;
-}
-
-double ParseNumber(const std::string& text) {
-  const std::optional<double> value = ParseFinite(text);
-  if (!value) throw std::invalid_argument(fmt::format("\"{}\" is not a finite number", text));
-  return *value;
-}
 
 int ParseCoordinate(const std::string& name) {
   const auto found = std::find(CoordinateNames().begin(), CoordinateNames().end(), name);
@@ -84,20 +67,6 @@ OutputUnit AngleUnitOf(const AccuracySettings& settings) {
   return UnitOf(AngleUnits(), settings.angle_unit, "deg", settings.format);
 }
 
-Vector6d ParsePose(const std::string& text) {
-  std::string blanks = text;
-  std::replace(blanks.begin(), blanks.end(), ',', ' ');
-  std::istringstream stream(blanks);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  if (words.size() != 6)
-    throw std::invalid_argument(
-        fmt::format("\"{}\" has {} numbers, not the six x y z rx ry rz", text, words.size()));
-  Vector6d pose;
-  for (size_t i = 0; i < 6; ++i) pose[static_cast<Eigen::Index>(i)] = ParseNumber(words[i]);
-  return pose;
-}
-
 BoxSetting ParseBox(const std::string& text) {
   BoxSetting box;
   for (const std::string& part : Split(text, ',')) {
@@ -125,19 +94,6 @@ std::vector<double> ParseJointErrors(const std::string& text) {
   return errors;
 }
 
-std::vector<int> ParseLegs(const std::string& text) {
-  std::vector<int> legs;
-  for (const std::string& part : Split(text, ',')) {
-    const std::optional<int> leg = ParseInteger(part);
-    if (!leg || *leg < 1 || *leg > kLegCount)
-      throw std::invalid_argument(fmt::format("\"{}\" is no leg: legs count from 1 to {}", part, kLegCount));
-    if (std::find(legs.begin(), legs.end(), *leg - 1) != legs.end())
-      throw std::invalid_argument(fmt::format("leg {} is named twice", *leg));
-    legs.push_back(*leg - 1);
-  }
-  return legs;
-}
-
 double ParseLengthError(const std::string& text) {
   constexpr double kLeast_m = 1e-12, kLargest_m = 1;
   const double error_m = ParsePositive(text);
@@ -145,12 +101,6 @@ double ParseLengthError(const std::string& text) {
     throw std::invalid_argument(
         fmt::format("{} m is no error of a robot: give {} to {} m", text, kLeast_m, kLargest_m));
   return error_m;
-}
-
-double ParsePositive(const std::string& text) {
-  const double value = ParseNumber(text);
-  if (!(value > 0)) throw std::invalid_argument(fmt::format("{} is not more than 0", text));
-  return value;
 }
 
 }  // namespace legible

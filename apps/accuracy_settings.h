@@ -61,12 +61,9 @@ OutputUnit LengthUnitOf(const AccuracySettings& settings);
 OutputUnit AngleUnitOf(const AccuracySettings& settings);
 
 // Texts of options taken apart; throw std::invalid_argument with a message for the user.
-Vector6d ParsePose(const std::string& text);                    // "x y z rx ry rz"
 BoxSetting ParseBox(const std::string& text);                   // "reachable,rz=-0.1:0.1"
 std::vector<double> ParseJointErrors(const std::string& text);  // "1e-4" or "1e-4,1e-4,…"
-std::vector<int> ParseLegs(const std::string& text);            // "1,3,5", from 1; result from 0
 // Errors of lengths, m: from a picometre to a metre.
 double ParseLengthError(const std::string& text);
-double ParsePositive(const std::string& text);
 
 }  // namespace legible

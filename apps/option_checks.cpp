@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <thread>
 
 namespace legible {
@@ -27,6 +28,18 @@ std::function<std::string(const std::string&)> WholeNumberFrom(int least) {
     return least > 0 ? fmt::format("give a whole number from {}, of at most 9 digits", least)
                      : std::string("give a whole number of at most 9 digits");
   };
+}
+
+CLI::Option* AddText(CLI::App& command, const std::string& name, const std::string& type,
+                     const std::function<void(const std::string&)>& take, const std::string& description) {
+  const auto take_or_refuse = [name, take](const std::string& text) {
+    try {
+      take(text);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  return command.add_option_function<std::string>(name, take_or_refuse, description)->type_name(type);
 }
 
 void AddThreadsOption(CLI::App& command, int& threads) {

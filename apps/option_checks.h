@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ bool IsWholeNumber(const std::string& text);
 
 // A check for CLI::Option::check.
 std::function<std::string(const std::string&)> WholeNumberFrom(int least);
+
+// An option whose text `take` takes apart; what that throws as std::invalid_argument becomes the option's
+// error. `type` stands in the help.
+CLI::Option* AddText(CLI::App& command, const std::string& name, const std::string& type,
+                     const std::function<void(const std::string&)>& take, const std::string& description);
 
 // "--threads", one a processor unless given.
 void AddThreadsOption(CLI::App& command, int& threads);

@@ -110,10 +110,9 @@ void WriteTogether(const fs::path& folder, const std::vector<std::string>& names
     const Staging staging(folder);
     write(staging.path());
     for (const std::string& name : names) {
-      if (fs::exists(staging.path() / name))
-        fs::rename(staging.path() / name, folder / name);
-      else
-        fs::remove(folder / name);
+      const bool is_written = fs::exists(staging.path() / name);
+      if (!is_written || fs::is_directory(folder / name)) fs::remove_all(folder / name);
+      if (is_written) fs::rename(staging.path() / name, folder / name);
     }
   });
 }

@@ -13,9 +13,9 @@ namespace legible {
 void DemandWritable(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 // Calls `write` with an empty folder beside the results; then moves what it wrote there into `folder`,
-// replacing what was there. Those of `names` that `write` did not write are removed: they would be an earlier
-// run's, and so is what a run on this host that was killed left half-written. Throws InputError if that
-// fails, and whatever `write` throws; the files are then as they were.
+// replacing what was there, folders too. Those of `names` that `write` did not write are removed: they would
+// be an earlier run's, and so is what a run on this host that was killed left half-written. Throws InputError
+// if that fails, and whatever `write` throws; the files are then as they were.
 void WriteTogether(const std::filesystem::path& folder, const std::vector<std::string>& names,
                    const std::function<void(const std::filesystem::path&)>& write);
 

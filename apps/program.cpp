@@ -5,6 +5,8 @@
 
 #include "apps/accuracy_command.h"
 #include "apps/calibrate_command.h"
+#include "apps/replay_command.h"
+#include "apps/servo_command.h"
 #include "datasets/input_error.h"
 
 namespace legible {
@@ -46,6 +48,10 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   const CLI::App* calibrate_command = AddCalibrateCommand(app, calibrate);
   AccuracySettings accuracy;
   const CLI::App* accuracy_command = AddAccuracyCommand(app, accuracy);
+  ServoSettings servo;
+  const CLI::App* servo_command = AddServoCommand(app, servo);
+  ReplaySettings replay;
+  const CLI::App* replay_command = AddReplayCommand(app, replay);
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     app.parse(std::move(arguments));
@@ -55,7 +61,9 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
     return ReportUsageError(app, error, console.err);
   }
   if (calibrate_command->parsed()) return RunCalibrate(calibrate, console);
-  return accuracy_command->parsed() ? RunAccuracy(accuracy, console) : kExitBadInput;
+  if (accuracy_command->parsed()) return RunAccuracy(accuracy, console);
+  if (servo_command->parsed()) return RunServoCommand(servo, console);
+  return replay_command->parsed() ? RunReplay(replay, console) : kExitBadInput;
 }
 
 }  // namespace

@@ -20,15 +20,23 @@ std::string Base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-std::string EmbedPicture(const std::filesystem::path& file) {
-  const cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+std::string EmbedPixels(const cv::Mat& image) {
   std::vector<unsigned char> jpeg;
   if (image.empty() || !cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}))
     return "";
   return "data:image/jpeg;base64," + Base64(jpeg);
 }
 
+std::string EmbedPicture(const std::filesystem::path& file) {
+  return EmbedPixels(cv::imread(file.string(), cv::IMREAD_GRAYSCALE));
+}
+
 }  // namespace
+
+std::string EmbedPicture(const GrayImage& image) {
+  return EmbedPixels(
+      cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())));
+}
 
 std::vector<std::string> EmbedPictures(const std::vector<std::filesystem::path>& files, int threads) {
   std::vector<std::string> pictures(files.size());

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace legible {
 namespace {
@@ -102,6 +103,14 @@ std::optional<GrayImage> ReadGrayImage(const std::filesystem::path& file) {
   const cv::Mat mat = Decoded(bytes);
   if (mat.empty()) return std::nullopt;
   return FromMat(mat);
+}
+
+std::string EncodePng(const GrayImage& image) {
+  const cv::Mat pixels(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", pixels, bytes))
+    throw std::runtime_error("EncodePng: the image cannot be encoded");
+  return {bytes.begin(), bytes.end()};
 }
 
 GrayImage Blurred(const GrayImage& image, double sigma_px) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace legible {
@@ -21,6 +22,9 @@ struct GrayImage {
 
 // Any format that OpenCV reads, colours turned to grey; nothing where the file is not an image.
 std::optional<GrayImage> ReadGrayImage(const std::filesystem::path& file);
+
+// The bytes of a PNG file.
+std::string EncodePng(const GrayImage& image);
 
 // Gaussian blur; sigma_px > 0.
 GrayImage Blurred(const GrayImage& image, double sigma_px);

@@ -1,0 +1,99 @@
+#include "apps/replay_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/json_text.h"
+#include "apps/option_checks.h"
+#include "apps/program.h"
+#include "apps/servo_log.h"
+#include "apps/wording.h"
+
+namespace legible {
+namespace {
+
+constexpr char kDescription[] = "Run the law of a servo's log again, and compare its commands";
+constexpr char kFooter[] =
+    R"(LOG is the folder that `legible servo` wrote. The law gets what came in then, cycle by cycle, and must command
+the same speeds, bit for bit, and end the same way.
+
+Exit codes:
+  0  it does
+  1  it does not; says where first
+  2  bad usage, or no log)";
+
+struct Comparison {
+  int cycles = 0, different = 0;
+  std::optional<int> first_different;
+  double largest_difference_m_per_s = 0;
+  Verdict end;
+};
+
+Comparison Replay(const RecordedServo& recorded) {
+  ServoController controller(recorded.setup.model, recorded.setup.goal, recorded.setup.options);
+  Comparison comparison;
+  for (const RecordedCycle& cycle : recorded.cycles) {
+    const CycleOutput output = controller.Cycle(cycle.input);
+    const bool is_same = output.joint_speeds_m_per_s == cycle.joint_speeds_m_per_s &&
+                         ToString(output.verdict.end) == cycle.end;
+    if (!is_same && comparison.different++ == 0) comparison.first_different = comparison.cycles;
+    comparison.largest_difference_m_per_s =
+        std::max(comparison.largest_difference_m_per_s,
+                 (output.joint_speeds_m_per_s - cycle.joint_speeds_m_per_s).cwiseAbs().maxCoeff());
+    comparison.end = output.verdict;
+    ++comparison.cycles;
+  }
+  return comparison;
+}
+
+nlohmann::ordered_json ComparisonJson(const Comparison& comparison) {
+  using nlohmann::ordered_json;
+  return {{"cycles", comparison.cycles},
+          {"different", comparison.different},
+          {"first_different",
+           comparison.first_different ? ordered_json(*comparison.first_different) : ordered_json()},
+          {"largest_difference_m_per_s", comparison.largest_difference_m_per_s},
+          {"status", ToString(comparison.end.end)},
+          {"reason", comparison.end.reason}};
+}
+
+std::string ComparisonText(const Comparison& comparison) {
+  const std::string end = comparison.end.end == ServoEnd::kRunning
+                              ? "not ended by itself"
+                              : fmt::format("{}: {}", ToString(comparison.end.end), comparison.end.reason);
+  if (comparison.different == 0)
+    return fmt::format("{}: the same commands, bit for bit\n{}\n", Plural(comparison.cycles, "cycle"), end);
+  return fmt::format("{} of {} differ, the first in cycle {}, by {:.3g} m/s at most\n{}\n",
+                     comparison.different, Plural(comparison.cycles, "cycle"), *comparison.first_different,
+                     comparison.largest_difference_m_per_s, end);
+}
+
+}  // namespace
+
+const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
+  CLI::App* command = program.add_subcommand("replay", kDescription)->group("Commands");
+  command->footer(kFooter);
+  command->add_option("LOG", settings.log, "Folder of a servo's log")->required()->type_name("");
+  command
+      ->add_option_function<std::string>(
+          "--format",
+          [&settings](const std::string& format) {
+            DemandOneOf("--format", format, {"table", "json"});
+            settings.prints_json = format == "json";
+          },
+          "What goes to standard output: lines for people, or one\nJSON document")
+      ->type_name("table|json");
+  return command;
+}
+
+int RunReplay(const ReplaySettings& settings, const Console& console) {
+  const Comparison comparison = Replay(ReadServoLog(settings.log));
+  console.out << (settings.prints_json ? JsonText(ComparisonJson(comparison)) : ComparisonText(comparison));
+  if (comparison.different == 0) return kExitSuccess;
+  console.err << "legible: the law commands other speeds than the log has\n";
+  return kExitNoResult;
+}
+
+}  // namespace legible

@@ -1,0 +1,99 @@
+#include "apps/servo_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "servo/path_shape.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Nearest rank; NaN of nothing.
+double Percentile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values[static_cast<size_t>(std::max(rank, 1.0)) - 1];
+}
+
+template <typename F>
+std::vector<double> OfCycles(const ServoLog& log, F value) {
+  std::vector<double> values;
+  values.reserve(log.cycles.size());
+  for (const LoggedCycle& logged : log.cycles) values.push_back(value(logged.cycle));
+  return values;
+}
+
+ordered_json TimesJson(const std::vector<double>& times_s) {
+  return {{"median", Percentile(times_s, 0.5)}, {"p99", Percentile(times_s, 0.99)}};
+}
+
+// The least of the cycles in which the law had speeds.
+template <typename F>
+ordered_json Least(const ServoLog& log, F value) {
+  std::optional<double> least;
+  for (const LoggedCycle& logged : log.cycles) {
+    const LawResult& law = logged.cycle.output.step.law;
+    if (law.status == LawStatus::kOk) least = std::min(least.value_or(value(law)), value(law));
+  }
+  return least ? ordered_json(*least) : ordered_json();
+}
+
+ordered_json PoseErrorJson(const PreparedServo& prepared, const FinishedServo& finished) {
+  if (!prepared.true_goal || !finished.true_end) return nullptr;
+  const Vector6d error = Displacement(*finished.true_end, *prepared.true_goal);
+  return {{"position_m", error.head<3>().norm()}, {"rotation_rad", error.tail<3>().norm()}};
+}
+
+ordered_json PathJson(const PreparedServo& prepared, const FinishedServo& finished) {
+  std::vector<Eigen::Vector3d> places;
+  for (const LoggedCycle& logged : finished.log.cycles)
+    places.push_back(logged.cycle.output.step.law.base_from_platform.translation);
+  if (places.empty()) return nullptr;
+  const auto& goal = prepared.setup.goal.base_from_platform;
+  const PathShape shape = ShapeOfPath(places, goal ? goal->translation : places.back());
+  return {{"length_m", shape.length_m}, {"deviation_m", shape.deviation_m}};
+}
+
+ordered_json LegsJson(const std::bitset<kLegCount>& legs) {
+  ordered_json numbers = ordered_json::array();
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    if (legs[leg]) numbers.push_back(leg + 1);
+  return numbers;
+}
+
+}  // namespace
+
+ordered_json ServoJson(const PreparedServo& prepared, const FinishedServo& finished) {
+  const ServoLog& log = finished.log;
+  const ControlLawOptions& options = prepared.setup.options.step.law;
+  const LawResult last = log.cycles.empty() ? LawResult() : log.cycles.back().cycle.output.step.law;
+  const auto speeds = OfCycles(
+      log, [](const ServoCycle& cycle) { return cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff(); });
+  return {{"status", ToString(finished.run.end)},
+          {"reason", finished.run.reason},
+          {"mode", ToString(options.mode)},
+          {"unit", UnitOf(options.mode)},
+          {"legs", LegsJson(options.legs)},
+          {"iterations", finished.run.cycles},
+          {"time_s", finished.run.time_s},
+          {"final_error", last.error},
+          {"tolerance", log.cycles.empty() ? 0 : log.cycles.back().cycle.output.verdict.tolerance},
+          {"final_edge_error_px", last.edge_error_px},
+          {"final_direction_error_rad", last.direction_error_rad},
+          {"final_pose_error", PoseErrorJson(prepared, finished)},
+          {"path", PathJson(prepared, finished)},
+          {"max_joint_speed_m_per_s", Percentile(speeds, 1)},
+          {"min_singular_value", Least(log, [](const LawResult& law) { return law.singular_values[5]; })},
+          {"min_conditioning", Least(log, [](const LawResult& law) { return law.Conditioning(); })},
+          {"min_robot_conditioning", Least(log, [](const LawResult& law) { return law.robot_conditioning; })},
+          {"compute_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.law_s; }))},
+          {"look_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.look_s; }))},
+          {"warnings", prepared.warnings}};
+}
+
+}  // namespace legible

@@ -1,0 +1,226 @@
+#include "apps/servo_run.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "apps/interruption.h"
+#include "apps/program.h"
+#include "core/rig/simulated_edges.h"
+#include "core/rig/tracked_edges.h"
+#include "core/robots/mechanism.h"
+#include "datasets/atomic_file.h"
+#include "datasets/camera_file.h"
+#include "datasets/input_error.h"
+#include "datasets/model_file.h"
+
+namespace legible {
+namespace {
+
+constexpr double kFirstLookRange_px = 120;  // a tape measure's camera
+
+ServoModel LoadModel(const ServoSettings& settings) {
+  CalibratedModel model = ReadModel(settings.model);
+  if (settings.camera) {
+    const CameraFile camera = ReadCamera(*settings.camera);
+    model.camera = camera.camera;
+    model.camera_from_base = camera.camera_from_base;
+  }
+  const std::filesystem::path& file = settings.camera.value_or(settings.model);
+  if (!model.camera)
+    throw InputError(file, 0, "has no camera", "calibrate, or name a camera.yaml with --camera");
+  if (!model.camera_from_base)
+    throw InputError(file, 0, "does not say where the camera is", "add camera_from_base");
+  return MakeServoModel(model.robot, *model.camera, *model.camera_from_base);
+}
+
+void DemandInRange(const ServoSettings& settings, const GoughStewart& robot, const Vector6d& readings_m) {
+  const std::vector<int> out = JointsOutOfRange(robot, readings_m);
+  if (out.empty()) return;
+  const Leg& leg = robot.legs[static_cast<size_t>(out[0])];
+  throw InputError(
+      settings.model, 0,
+      fmt::format("the goal is out of reach: leg {} would read {:.4f} m, beyond its range of {:.4g} "
+                  "to {:.4g} m",
+                  out[0] + 1, readings_m[out[0]], leg.joint_range_m[0], leg.joint_range_m[1]),
+      "give a goal within the joint ranges");
+}
+
+Rigid3 PoseAtReadings(const ServoSettings& settings, const GoughStewart& robot, const Vector6d& readings_m) {
+  const auto found = ForwardKinematics(robot, readings_m, robot.home);
+  if (found.status != ForwardKinematicsStatus::kConverged)
+    throw InputError(settings.model, 0,
+                     fmt::format("the goal's joint readings lead to no pose: forward kinematics is {}",
+                                 ToString(found.status)),
+                     "give readings of a pose near the home pose");
+  return found.base_from_platform;
+}
+
+EdgeTrackerOptions TrackerOptions() {
+  EdgeTrackerOptions options;
+  options.first_look.lock->range_px = kFirstLookRange_px;
+  return options;
+}
+
+ServoGoal GoalFromImage(const ServoSettings& settings, const ServoModel& model) {
+  const std::filesystem::path& file = *settings.goal.image;
+  const auto image = ReadGrayImage(file);
+  if (!image) throw InputError(file, 0, "is not an image, or damaged", "give an image that can be opened");
+  if (image->width != model.camera.width_px || image->height != model.camera.height_px)
+    throw InputError(file, 0,
+                     fmt::format("is {} x {} px, and the model's camera {} x {}", image->width, image->height,
+                                 model.camera.width_px, model.camera.height_px),
+                     "give an image of this camera");
+  const Rigid3 guess = settings.goal.joints_m ? PoseAtReadings(settings, model.robot, *settings.goal.joints_m)
+                                              : model.robot.home;
+  EdgeTracker tracker(model.robot, model.camera, model.camera_from_base, TrackerOptions());
+  return GoalFromEdges(model, tracker.Track(*image, 0, guess).seen, guess);
+}
+
+ServoGoal GoalOf(const ServoSettings& settings, const ServoModel& model) {
+  if (settings.goal.image) return GoalFromImage(settings, model);
+  if (settings.goal.joints_m) {
+    DemandInRange(settings, model.robot, *settings.goal.joints_m);
+    return GoalAtPose(model, PoseAtReadings(settings, model.robot, *settings.goal.joints_m));
+  }
+  const Vector6d& pose = *settings.goal.pose;
+  const Rigid3 base_from_platform{RotationFromVector(pose.tail<3>()), pose.head<3>()};
+  DemandInRange(settings, model.robot, InverseKinematics(model.robot, base_from_platform));
+  return GoalAtPose(model, base_from_platform);
+}
+
+// Where the true robot is at the goal, as far as it follows from what was given.
+std::optional<Rigid3> TrueGoal(const ServoSettings& settings, const ServoModel& model,
+                               const GoughStewart& truth) {
+  if (settings.goal.joints_m) {
+    const auto found = ForwardKinematics(truth, *settings.goal.joints_m, truth.home);
+    if (found.status == ForwardKinematicsStatus::kConverged) return found.base_from_platform;
+    return std::nullopt;
+  }
+  if (!settings.goal.pose) return std::nullopt;
+  const Vector6d& pose = *settings.goal.pose;
+  return InFramesOf(truth, model.robot, {RotationFromVector(pose.tail<3>()), pose.head<3>()});
+}
+
+// Keeps what a report shows of the run.
+class Recorder {
+ public:
+  Recorder(const SimulatedRig& rig, const TrackedEdgeSource* images, FinishedServo& finished,
+           const std::optional<std::filesystem::path>& frame_folder)
+      : rig_(rig), images_(images), finished_(finished), frame_folder_(frame_folder) {}
+
+  void Take(const ServoCycle& cycle) {
+    finished_.log.cycles.push_back({cycle, rig_.true_motion().base_from_platform});
+    if (finished_.log.cycles.size() == 1) Keep("start");
+    if (images_ && frame_folder_ && images_->image().time_s != last_frame_s_) {
+      last_frame_s_ = images_->image().time_s;
+      WriteFileAtomically(*frame_folder_ / fmt::format("{:06}.png", finished_.log.cycles.size() - 1),
+                          EncodePng(images_->image().image));
+    }
+  }
+
+  void Keep(const std::string& label) {
+    if (finished_.log.cycles.empty()) return;
+    RunPicture picture{label, finished_.log.cycles.size() - 1, std::nullopt};
+    if (images_) picture.image = images_->image().image;
+    finished_.pictures.push_back(std::move(picture));
+  }
+
+ private:
+  const SimulatedRig& rig_;
+  const TrackedEdgeSource* images_;
+  FinishedServo& finished_;
+  std::optional<std::filesystem::path> frame_folder_;
+  double last_frame_s_ = -1;
+};
+
+std::string LiveText(const ServoCycle& cycle, ControlMode mode) {
+  const LawResult& law = cycle.output.step.law;
+  const std::string limits = DescribeLimits(cycle.output.step);
+  const std::string waiting =
+      cycle.output.verdict.is_waiting ? "; waiting: too little is seen" : std::string();
+  return fmt::format("{:6.2f} s  error {:.4g} {}  {} edges  fastest joint {:.2f} mm/s{}{}",
+                     cycle.input.time_s, law.error, UnitOf(mode), cycle.input.seen.edges.size(),
+                     1e3 * cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
+                     limits.empty() ? "" : "  " + limits, waiting);
+}
+
+}  // namespace
+
+Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform) {
+  std::vector<Eigen::Vector3d> from_a, from_b, to_a, to_b;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    from_a.push_back(from.legs[i].base_joint_m);
+    from_b.push_back(from.legs[i].platform_joint_m);
+    to_a.push_back(to.legs[i].base_joint_m);
+    to_b.push_back(to.legs[i].platform_joint_m);
+  }
+  return FitRigid(from_a, to_a) * base_from_platform * FitRigid(to_b, from_b);
+}
+
+namespace {
+
+void DemandSameImageSize(const ServoSettings& settings, const Camera& model, const Camera& rig) {
+  if (model.width_px == rig.width_px && model.height_px == rig.height_px) return;
+  throw InputError(settings.model, 0,
+                   fmt::format("has a camera of {} x {} px, and the rig one of {} x {}", model.width_px,
+                               model.height_px, rig.width_px, rig.height_px),
+                   "give the model of this rig");
+}
+
+}  // namespace
+
+PreparedServo PrepareServo(const ServoSettings& settings) {
+  PreparedServo prepared;
+  prepared.settings = settings;
+  ServoSetup& setup = prepared.setup;
+  setup.model = LoadModel(settings);
+  prepared.rig = OpenRig(settings.rig);
+  DemandSameImageSize(settings, setup.model.camera, prepared.rig.truth.truth.camera);
+  setup.goal = GoalOf(settings, setup.model);
+  setup.options = settings.options;
+  setup.period_s = settings.period_s;
+  setup.provenance = {
+      {"model", settings.model.string()}, {"rig", settings.rig}, {"program_version", ProgramVersion()}};
+  prepared.true_goal = TrueGoal(settings, setup.model, prepared.rig.truth.truth.robot);
+  try {
+    DemandGoal(setup.goal, setup.options.step.law);
+    setup.options.Check();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(settings.goal.image.value_or(settings.model), 0, "cannot be servoed to like this",
+                     error.what());
+  }
+  return prepared;
+}
+
+FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
+                         ProgressLine& progress) {
+  FinishedServo finished;
+  finished.log.setup = prepared.setup;
+  const ServoModel& model = prepared.setup.model;
+  SimulatedRig& rig = *prepared.rig.rig;
+  std::optional<TrackedEdgeSource> images;
+  std::optional<SimulatedEdges> lines;
+  if (prepared.settings.is_image_free)
+    lines.emplace(rig);
+  else
+    images.emplace(rig, model.robot, model.camera, model.camera_from_base, TrackerOptions());
+  EdgeSource& source = images ? static_cast<EdgeSource&>(*images) : *lines;
+
+  ServoController controller(model, prepared.setup.goal, prepared.setup.options);
+  Recorder recorder(rig, images ? &*images : nullptr, finished, frame_folder);
+  const Interruption interruption;
+  ServoLoopOptions loop;
+  loop.period_s = prepared.setup.period_s;
+  loop.is_stopped = [&interruption] { return interruption.HasCome(); };
+  finished.run = RunServo(rig, source, controller, loop, [&](const ServoCycle& cycle) {
+    recorder.Take(cycle);
+    progress.Show(LiveText(cycle, prepared.setup.options.step.law.mode));
+  });
+  recorder.Keep("end");
+  finished.true_end = rig.true_motion().base_from_platform;
+  return finished;
+}
+
+}  // namespace legible

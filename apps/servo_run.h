@@ -1,0 +1,48 @@
+// A servo from the user's settings to all there is to say about it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/progress.h"
+#include "apps/rig_opening.h"
+#include "apps/servo_log.h"
+#include "apps/servo_settings.h"
+#include "core/vision/gray_image.h"
+
+namespace legible {
+
+// An image of the run, with the cycle that it belongs to.
+struct RunPicture {
+  std::string label;
+  size_t cycle = 0;
+  std::optional<GrayImage> image;  // none: image-free
+};
+
+// What is needed to drive: nothing has moved yet.
+struct PreparedServo {
+  ServoSettings settings;
+  OpenedRig rig;
+  ServoSetup setup;
+  std::optional<Rigid3> true_goal;  // base_from_platform of the true robot, in its own frames
+  std::vector<std::string> warnings;
+};
+// Throws InputError for a model without camera, a goal out of the joint ranges or not to be seen, …
+PreparedServo PrepareServo(const ServoSettings& settings);
+
+struct FinishedServo {
+  ServoRun run;
+  ServoLog log;
+  std::vector<RunPicture> pictures;  // of the first and the last cycle
+  std::optional<Rigid3> true_end;
+};
+// With a frame folder each image is kept there as it comes.
+FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
+                         ProgressLine& progress);
+
+// The pose in the frames of another robot of the same build: those that fit its base and platform joints
+// best.
+Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform);
+
+}  // namespace legible
