@@ -71,8 +71,6 @@ class CylinderShape {
     return box;
   }
 
-  bool CastsShadow() const { return true; }
-
  private:
   Eigen::Vector3d start_, axis_;
   double length_m_, radius_m_;
@@ -81,7 +79,7 @@ class CylinderShape {
 class BallShape {
  public:
   explicit BallShape(const Ball& ball)
-      : centre_(ball.centre_in_camera), radius_m_(ball.radius_m), casts_shadow_(ball.casts_shadow) {}
+      : centre_(ball.centre_in_camera), radius_m_(ball.radius_m) {}
 
   std::optional<Meeting> Meet(const Ray& ray) const {
     const Eigen::Vector3d to_centre = centre_ - ray.origin;
@@ -97,12 +95,9 @@ class BallShape {
     return {centre_ - reach, centre_ + reach};
   }
 
-  bool CastsShadow() const { return casts_shadow_; }
-
  private:
   Eigen::Vector3d centre_;
   double radius_m_;
-  bool casts_shadow_;
 };
 
 template <typename Shape>
@@ -148,7 +143,6 @@ template <typename Shape>
 void Occlude(const RTCOccludedFunctionNArguments* arguments) {
   const Shape& shape =
       (*static_cast<const std::vector<Shape>*>(arguments->geometryUserPtr))[arguments->primID];
-  if (!shape.CastsShadow()) return;
   for (unsigned int i = 0; i < arguments->N; ++i)
     if (arguments->valid[i] != 0 && shape.Meet(RayAt(arguments->ray, arguments->N, i)))
       RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();

@@ -36,8 +36,8 @@ class SceneCamera::Scene {
   Scene(const SimulationTruth& truth, const SceneOptions& options, std::uint64_t seed)
       : truth_(Checked(truth, options)),
         options_(options),
-        renderer_(truth.camera, FixedParts(truth, options), LightOf(truth, options), options.ground_grey,
-                  Blotches(options.texture_grey, Scrambled(seed))),
+        renderer_(truth.camera, RoomParts(truth, options), BaseParts(truth, options), LightOf(truth, options),
+                  options.ground_grey, Blotches(options.texture_grey, Scrambled(seed))),
         noise_(options.noise_grey, seed) {}
 
   BrightnessImage Render(const Rigid3& base_from_platform, const std::vector<int>& covered_legs) const {

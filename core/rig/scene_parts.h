@@ -27,7 +27,6 @@ struct Ball {
   Eigen::Vector3d centre_in_camera;
   double radius_m = 0;
   Paint paint;
-  bool casts_shadow = true;
 };
 
 // Flat, of triangles.
@@ -42,9 +41,12 @@ struct SceneParts {
   std::vector<Face> faces;
 };
 
-// Ground, the dome of the room about it, base plate and the joints on it. The ground lies where the base
-// stands, or a little below the camera where that is lower.
-SceneParts FixedParts(const SimulationTruth& truth, const SceneOptions& options);
+// The ground and the dome of the room over it, which cast no shadow on the robot. The ground lies where the
+// base stands, or a little below the camera where that is lower.
+SceneParts RoomParts(const SimulationTruth& truth, const SceneOptions& options);
+
+// The base plate, on the far side of the base joints, and the joints on it.
+SceneParts BaseParts(const SimulationTruth& truth, const SceneOptions& options);
 
 // Legs, platform and its joints, and a board a little before each of the covered legs (0-based). What hides
 // the legs lies within what PredictEdges expects to: joints of less than 2 leg radii, the plate on the far

@@ -18,8 +18,8 @@ constexpr float kLargestBend_grey = 2;
 
 // Places of the sight lines over a pixel: Korobov's lattice, moved as a whole by another amount in each
 // pixel. The share of them on one side of a straight edge of any direction is off by 0.016 (rms), and by
-// nothing on average.
-constexpr size_t kSamples = 48, kGenerator = 37;
+// nothing on average. Every third of them, the first round, is a lattice of 16.
+constexpr size_t kRounds = 3, kSamples = kRounds * kPacketSize, kGenerator = 37;
 
 Eigen::Vector2d SamplePlace(size_t sample, const Eigen::Vector2d& shift) {
   const Eigen::Vector2d place =
@@ -54,21 +54,26 @@ void ForEachRow(int height, const RowJob& job) {
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const Camera& camera, const SceneParts& fixed, const SceneLight& light,
-                             double background_grey, const Blotches& blotches)
+SceneRenderer::SceneRenderer(const Camera& camera, const SceneParts& room, const SceneParts& base,
+                             const SceneLight& light, double background_grey, const Blotches& blotches)
     : lines_(camera),
       light_(light),
       background_grey_(static_cast<float>(background_grey)),
       blotches_(blotches),
-      fixed_paints_(PaintsOf(fixed)),
-      fixed_scene_(fixed, 0),
+      fixed_paints_(PaintsOf(room)),
+      room_scene_(room, 0),
+      base_scene_(base, static_cast<int>(fixed_paints_.size())),
       fixed_(IndexOf(0, camera.height_px)) {
+  const std::vector<Paint> of_base = PaintsOf(base);
+  fixed_paints_.insert(fixed_paints_.end(), of_base.begin(), of_base.end());
   PixelViews views(IndexOf(0, lines_.height()));
   ForEachRow(lines_.height(), [&](int y) { ViewFixed(y, views); });
   ForEachRow(lines_.height(), [&](int y) {
-    for (int x = 0; x < lines_.width(); ++x)
-      fixed_.mean_grey[IndexOf(x, y)] =
-          ShowsEdge(views, x, y) ? MeanOver({}, x, y) : views.grey[IndexOf(x, y)];
+    for (int x = 0; x < lines_.width(); ++x) {
+      const size_t pixel = IndexOf(x, y);
+      fixed_.is_even[pixel] = fixed_.surface[pixel] >= 0 && !HasOtherKeysAbout(views, x, y) ? 1 : 0;
+      fixed_.mean_grey[pixel] = ShowsEdge(views, x, y) ? MeanOver({}, x, y) : views.grey[pixel];
+    }
   });
 }
 
@@ -121,9 +126,10 @@ ShadowPacket SceneRenderer::Shadows(const SightPacket& packet) const {
 void SceneRenderer::ViewFixed(int y, PixelViews& views) {
   for (int x = 0; x < lines_.width(); x += static_cast<int>(kPacketSize)) {
     SightPacket packet = MiddlesOf(x, y);
-    fixed_scene_.Trace(packet);
+    room_scene_.Trace(packet);
+    base_scene_.Trace(packet);
     ShadowPacket shadows = Shadows(packet);
-    fixed_scene_.TraceShadows(light_.towards_in_camera, shadows);
+    base_scene_.TraceShadows(light_.towards_in_camera, shadows);
     const size_t count = std::min(kPacketSize, static_cast<size_t>(lines_.width() - x));
     for (size_t i = 0; i < count; ++i) {
       const size_t pixel = IndexOf(x, y) + i;
@@ -131,6 +137,7 @@ void SceneRenderer::ViewFixed(int y, PixelViews& views) {
       const bool is_seen = surface >= 0, is_lit = is_seen && !shadows.is_dark[i];
       fixed_.depth[pixel] = packet.depth[i];
       fixed_.surface[pixel] = surface;
+      fixed_.normal[pixel] = packet.normal[i];
       fixed_.is_lit[pixel] = is_lit ? 1 : 0;
       const float paint = is_seen ? PaintGrey({}, surface, shadows.origin[i]) : background_grey_;
       const float cosine = packet.normal[i].dot(light_.towards_in_camera);
@@ -150,7 +157,7 @@ void SceneRenderer::ViewMoving(const Moving& moving, int y, PixelViews& views) c
     for (size_t i = 0; i < count; ++i) packet.depth[i] = fixed_.depth[first + i];
     moving.scene->Trace(packet);
     ShadowPacket shadows = Shadows(packet), on_moving = shadows;
-    fixed_scene_.TraceShadows(light_.towards_in_camera, on_moving);
+    base_scene_.TraceShadows(light_.towards_in_camera, on_moving);
     // What stands still is known to be lit or not, but for shadows of what moves.
     for (size_t i = 0; i < count; ++i) {
       const bool is_lit = packet.surface[i] >= 0 ? !on_moving.is_dark[i] : fixed_.is_lit[first + i] != 0;
@@ -185,50 +192,93 @@ bool SceneRenderer::IsNearTouched(const PixelViews& views, int x, int y) const {
   return false;
 }
 
-// Whether a surface or a shadow may end within the pixel, or its brightness bend.
-bool SceneRenderer::ShowsEdge(const PixelViews& views, int x, int y) const {
-  const size_t pixel = IndexOf(x, y), width = static_cast<size_t>(lines_.width());
-  if (!lines_.HasImage(x, y)) return false;
-  const int left = std::max(0, x - 1), right = std::min(lines_.width() - 1, x + 1);
-  const int top = std::max(0, y - 1), bottom = std::min(lines_.height() - 1, y + 1);
-  for (int row = top; row <= bottom; ++row)
-    for (int column = left; column <= right; ++column)
-      if (views.key[IndexOf(column, row)] != views.key[pixel]) return true;
-  const float *const grey = views.grey.data() + pixel, middle = 2 * *grey;
-  return (right - left == 2 && std::abs(grey[-1] + grey[1] - middle) > 2 * kLargestBend_grey) ||
-         (bottom - top == 2 && std::abs(*(grey - width) + grey[width] - middle) > 2 * kLargestBend_grey);
+bool SceneRenderer::HasOtherKeysAbout(const PixelViews& views, int x, int y) const {
+  const int key = views.key[IndexOf(x, y)];
+  for (int row = std::max(0, y - 1); row <= std::min(lines_.height() - 1, y + 1); ++row)
+    for (int column = std::max(0, x - 1); column <= std::min(lines_.width() - 1, x + 1); ++column)
+      if (views.key[IndexOf(column, row)] != key) return true;
+  return false;
 }
 
-// Over many sight lines of a pixel.
-float SceneRenderer::MeanOver(const Moving& moving, int x, int y) const {
+// Whether a surface or a shadow may end within the pixel, or its brightness bend.
+bool SceneRenderer::ShowsEdge(const PixelViews& views, int x, int y) const {
+  if (!lines_.HasImage(x, y)) return false;
+  if (HasOtherKeysAbout(views, x, y)) return true;
+  const auto width = static_cast<std::ptrdiff_t>(lines_.width());
+  const float* const grey = views.grey.data() + IndexOf(x, y);
+  const auto bends = [&](std::ptrdiff_t step) {
+    return std::abs(grey[-step] + grey[step] - 2 * *grey) > 2 * kLargestBend_grey;
+  };
+  return (x > 0 && x + 1 < lines_.width() && bends(1)) || (y > 0 && y + 1 < lines_.height() && bends(width));
+}
+
+// The sight lines of one round through a pixel; where nothing that stands still ends there, what they meet of
+// that is known: a surface as good as flat.
+SightPacket SceneRenderer::SamplesOf(int x, int y, size_t round) const {
   const size_t pixel = IndexOf(x, y);
   const Eigen::Vector2d shift = SampleShift(pixel);
-  float sum = 0;
-  for (size_t start = 0; start < kSamples; start += kPacketSize) {
-    SightPacket packet;
-    for (size_t i = 0; i < kPacketSize; ++i) {
-      const Eigen::Vector2d place = SamplePlace(start + i, shift);
-      packet.direction.Set(i, lines_.At(x, y, place.x(), place.y()).cast<float>().homogeneous());
-      packet.depth[i] = kFar_m;
-      packet.surface[i] = -1;
-    }
-    fixed_scene_.Trace(packet);
-    if (moving.scene) moving.scene->Trace(packet);
-    ShadowPacket shadows = Shadows(packet);
-    if (moving.scene) moving.scene->TraceShadows(light_.towards_in_camera, shadows);
-    fixed_scene_.TraceShadows(light_.towards_in_camera, shadows);
-    for (size_t i = 0; i < kPacketSize; ++i) {
-      const int surface = packet.surface[i];
-      if (surface < 0) {
-        sum += background_grey_;
-        continue;
-      }
-      const float paint = surface == fixed_.surface[pixel] ? fixed_.paint_grey[pixel]
-                                                           : PaintGrey(moving, surface, shadows.origin[i]);
-      sum += paint * light_.Share(packet.normal[i].dot(light_.towards_in_camera), !shadows.is_dark[i]);
-    }
+  const Eigen::Vector3f& normal = fixed_.normal[pixel];
+  const float height =
+      fixed_.depth[pixel] * normal.dot(lines_.At(x, y, 0.5, 0.5).cast<float>().homogeneous());
+  SightPacket packet;
+  for (size_t i = 0; i < kPacketSize; ++i) {
+    const Eigen::Vector2d place = SamplePlace(kRounds * i + round, shift);
+    packet.direction.Set(i, lines_.At(x, y, place.x(), place.y()).cast<float>().homogeneous());
+    const bool is_known = fixed_.is_even[pixel] != 0;
+    packet.depth[i] = is_known ? height / normal.dot(packet.direction[i]) : kFar_m;
+    packet.surface[i] = is_known ? fixed_.surface[pixel] : -1;
+    packet.normal.Set(i, normal);
   }
-  return sum / static_cast<float>(kSamples);
+  return packet;
+}
+
+SceneRenderer::SampleSum SceneRenderer::SumOver(const Moving& moving, int x, int y, size_t round) const {
+  const size_t pixel = IndexOf(x, y);
+  const bool is_known = fixed_.is_even[pixel] != 0;
+  SightPacket packet = SamplesOf(x, y, round);
+  if (!is_known) {
+    room_scene_.Trace(packet);
+    base_scene_.Trace(packet);
+  }
+  if (moving.scene) moving.scene->Trace(packet);
+  ShadowPacket shadows = Shadows(packet);
+  const auto wanted = shadows.is_wanted;
+  for (size_t i = 0; i < kPacketSize; ++i) {
+    if (!is_known || !IsFixed(packet.surface[i])) continue;
+    shadows.is_wanted[i] = false;
+    shadows.is_dark[i] = fixed_.is_lit[pixel] == 0;
+  }
+  base_scene_.TraceShadows(light_.towards_in_camera, shadows);
+  shadows.is_wanted = wanted;
+  if (moving.scene) moving.scene->TraceShadows(light_.towards_in_camera, shadows);
+  return Sum(moving, pixel, packet, shadows);
+}
+
+SceneRenderer::SampleSum SceneRenderer::Sum(const Moving& moving, size_t pixel, const SightPacket& packet,
+                                            const ShadowPacket& shadows) const {
+  SampleSum sum;
+  for (size_t i = 0; i < kPacketSize; ++i) {
+    const int surface = packet.surface[i];
+    sum.is_even = sum.is_even && surface == packet.surface[0] && shadows.is_dark[i] == shadows.is_dark[0];
+    if (surface < 0) {
+      sum.grey += background_grey_;
+      continue;
+    }
+    const float paint = surface == fixed_.surface[pixel] ? fixed_.paint_grey[pixel]
+                                                         : PaintGrey(moving, surface, shadows.origin[i]);
+    sum.grey += paint * light_.Share(packet.normal[i].dot(light_.towards_in_camera), !shadows.is_dark[i]);
+  }
+  return sum;
+}
+
+// Over one round of sight lines where these meet the same, which errs to both sides of an edge alike, or over
+// all rounds.
+float SceneRenderer::MeanOver(const Moving& moving, int x, int y) const {
+  const SampleSum first = SumOver(moving, x, y, 0);
+  if (first.is_even) return first.grey / kPacketSize;
+  float sum = first.grey;
+  for (size_t round = 1; round < kRounds; ++round) sum += SumOver(moving, x, y, round).grey;
+  return sum / (kRounds * kPacketSize);
 }
 
 float SceneRenderer::PixelGrey(const Moving& moving, const PixelViews& views, int x, int y) const {

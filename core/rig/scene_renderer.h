@@ -35,8 +35,9 @@ struct PixelViews {
 // light from where that may be dark, and many where surfaces or shadows end.
 class SceneRenderer {
  public:
-  SceneRenderer(const Camera& camera, const SceneParts& fixed, const SceneLight& light, double background_grey,
-                const Blotches& blotches);
+  // The room casts no shadows.
+  SceneRenderer(const Camera& camera, const SceneParts& room, const SceneParts& base, const SceneLight& light,
+                double background_grey, const Blotches& blotches);
 
   // Mean brightness over each pixel.
   BrightnessImage Render(const SceneParts& moving) const;
@@ -45,21 +46,31 @@ class SceneRenderer {
   // What stands still as the middle of each pixel sees it, and as the whole pixel does.
   struct FixedViews {
     std::vector<float> depth, paint_grey, middle_grey, mean_grey;
+    std::vector<Eigen::Vector3f> normal;
     std::vector<int> surface;
     std::vector<char> is_lit;
+    std::vector<char> is_even;  // nothing that stands still ends in the pixel
 
     explicit FixedViews(size_t count)
         : depth(count),
           paint_grey(count),
           middle_grey(count),
           mean_grey(count),
+          normal(count),
           surface(count),
-          is_lit(count) {}
+          is_lit(count),
+          is_even(count) {}
   };
   // What moves, or nothing.
   struct Moving {
     const RayScene* scene = nullptr;
     std::vector<Paint> paints;
+  };
+
+  // Of a packet of sight lines through one pixel.
+  struct SampleSum {
+    float grey = 0;
+    bool is_even = true;  // all met the same surface, and light or shadow alike
   };
 
   size_t IndexOf(int x, int y) const {
@@ -73,8 +84,13 @@ class SceneRenderer {
   void ViewMoving(const Moving& moving, int y, PixelViews& views) const;
   ShadowPacket Shadows(const SightPacket& packet) const;
 
+  bool HasOtherKeysAbout(const PixelViews& views, int x, int y) const;
   bool ShowsEdge(const PixelViews& views, int x, int y) const;
   bool IsNearTouched(const PixelViews& views, int x, int y) const;
+  SightPacket SamplesOf(int x, int y, size_t round) const;
+  SampleSum SumOver(const Moving& moving, int x, int y, size_t round) const;
+  SampleSum Sum(const Moving& moving, size_t pixel, const SightPacket& packet,
+                const ShadowPacket& shadows) const;
   float MeanOver(const Moving& moving, int x, int y) const;
   float PixelGrey(const Moving& moving, const PixelViews& views, int x, int y) const;
 
@@ -83,7 +99,7 @@ class SceneRenderer {
   float background_grey_;
   Blotches blotches_;
   std::vector<Paint> fixed_paints_;
-  RayScene fixed_scene_;
+  RayScene room_scene_, base_scene_;
   FixedViews fixed_;
 };
 
