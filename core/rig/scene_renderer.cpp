@@ -22,11 +22,9 @@ constexpr float kLargestBend_grey = 2;
 constexpr size_t kRounds = 3, kSamples = kRounds * kPacketSize, kGenerator = 37;
 
 Eigen::Vector2d SamplePlace(size_t sample, const Eigen::Vector2d& shift) {
-  const Eigen::Vector2d place =
-      Eigen::Vector2d(static_cast<double>(sample), static_cast<double>(sample * kGenerator % kSamples)) /
-          kSamples +
-      shift;
-  return place - Eigen::Vector2d(std::floor(place.x()), std::floor(place.y()));
+  const auto part = [](size_t n) { return static_cast<double>(n) / kSamples; };
+  const double right = part(sample) + shift.x(), down = part(sample * kGenerator % kSamples) + shift.y();
+  return {right < 1 ? right : right - 1, down < 1 ? down : down - 1};
 }
 
 Eigen::Vector2d SampleShift(size_t pixel) {
