@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace legible {
 namespace {
@@ -67,10 +68,10 @@ SceneRenderer::SceneRenderer(const Camera& camera, const SceneParts& room, const
   PixelViews views(IndexOf(0, lines_.height()));
   ForEachRow(lines_.height(), [&](int y) { ViewFixed(y, views); });
   ForEachRow(lines_.height(), [&](int y) {
+    FillRow({}, views, y, fixed_.mean_grey.data() + IndexOf(0, y));
     for (int x = 0; x < lines_.width(); ++x) {
       const size_t pixel = IndexOf(x, y);
       fixed_.is_even[pixel] = fixed_.surface[pixel] >= 0 && !HasOtherKeysAbout(views, x, y) ? 1 : 0;
-      fixed_.mean_grey[pixel] = ShowsEdge(views, x, y) ? MeanOver({}, x, y) : views.grey[pixel];
     }
   });
 }
@@ -81,9 +82,7 @@ BrightnessImage SceneRenderer::Render(const SceneParts& parts) const {
   PixelViews views(IndexOf(0, lines_.height()));
   ForEachRow(lines_.height(), [&](int y) { ViewMoving(moving, y, views); });
   BrightnessImage image{lines_.width(), lines_.height(), std::vector<float>(views.grey.size())};
-  ForEachRow(lines_.height(), [&](int y) {
-    for (int x = 0; x < lines_.width(); ++x) image.Row(y)[x] = PixelGrey(moving, views, x, y);
-  });
+  ForEachRow(lines_.height(), [&](int y) { FillRow(moving, views, y, image.Row(y)); });
   return image;
 }
 
@@ -198,16 +197,38 @@ bool SceneRenderer::HasOtherKeysAbout(const PixelViews& views, int x, int y) con
   return false;
 }
 
-// Whether a surface or a shadow may end within the pixel, or its brightness bend.
-bool SceneRenderer::ShowsEdge(const PixelViews& views, int x, int y) const {
-  if (!lines_.HasImage(x, y)) return false;
-  if (HasOtherKeysAbout(views, x, y)) return true;
-  const auto width = static_cast<std::ptrdiff_t>(lines_.width());
-  const float* const grey = views.grey.data() + IndexOf(x, y);
-  const auto bends = [&](std::ptrdiff_t step) {
-    return std::abs(grey[-step] + grey[step] - 2 * *grey) > 2 * kLargestBend_grey;
+// Whether the brightness of one surface bends so much that a pixel's middle does not stand for its mean.
+bool SceneRenderer::Bends(const PixelViews& views, int x, int y) const {
+  const size_t pixel = IndexOf(x, y);
+  const auto bends = [&](size_t step) {
+    const size_t before = pixel - step, after = pixel + step;
+    return views.key[before] == views.key[pixel] && views.key[after] == views.key[pixel] &&
+           std::abs(views.grey[before] + views.grey[after] - 2 * views.grey[pixel]) > 2 * kLargestBend_grey;
   };
-  return (x > 0 && x + 1 < lines_.width() && bends(1)) || (y > 0 && y + 1 < lines_.height() && bends(width));
+  return (x > 0 && x + 1 < lines_.width() && bends(1)) ||
+         (y > 0 && y + 1 < lines_.height() && bends(static_cast<size_t>(lines_.width())));
+}
+
+// Of the pixels from (x, y) on.
+SceneRenderer::CornerKeys SceneRenderer::KeysAtCorners(const Moving& moving, int x, int y) const {
+  SightPacket packet;
+  for (size_t i = 0; i < kPacketSize; ++i) {
+    const int column = std::min(x + static_cast<int>(i % (kPacketSize / 2)), lines_.width());
+    const Eigen::Vector2d line = lines_.AtCorner(column, y + (i < kPacketSize / 2 ? 0 : 1));
+    const bool is_seen = line.allFinite();
+    packet.direction.Set(i, (is_seen ? line : Eigen::Vector2d(0, 0)).cast<float>().homogeneous());
+    packet.depth[i] = is_seen ? kFar_m : 0;
+    packet.surface[i] = -1;
+  }
+  room_scene_.Trace(packet);
+  base_scene_.Trace(packet);
+  if (moving.scene) moving.scene->Trace(packet);
+  ShadowPacket shadows = Shadows(packet);
+  base_scene_.TraceShadows(light_.towards_in_camera, shadows);
+  if (moving.scene) moving.scene->TraceShadows(light_.towards_in_camera, shadows);
+  CornerKeys corners;
+  for (size_t i = 0; i < kPacketSize; ++i) corners.keys[i] = KeyOf(packet.surface[i], !shadows.is_dark[i]);
+  return corners;
 }
 
 // The sight lines of one round through a pixel; where nothing that stands still ends there, what they meet of
@@ -218,11 +239,11 @@ SightPacket SceneRenderer::SamplesOf(int x, int y, size_t round) const {
   const Eigen::Vector3f& normal = fixed_.normal[pixel];
   const float height =
       fixed_.depth[pixel] * normal.dot(lines_.At(x, y, 0.5, 0.5).cast<float>().homogeneous());
+  const bool is_known = fixed_.is_even[pixel] != 0;
   SightPacket packet;
   for (size_t i = 0; i < kPacketSize; ++i) {
     const Eigen::Vector2d place = SamplePlace(kRounds * i + round, shift);
     packet.direction.Set(i, lines_.At(x, y, place.x(), place.y()).cast<float>().homogeneous());
-    const bool is_known = fixed_.is_even[pixel] != 0;
     packet.depth[i] = is_known ? height / normal.dot(packet.direction[i]) : kFar_m;
     packet.surface[i] = is_known ? fixed_.surface[pixel] : -1;
     packet.normal.Set(i, normal);
@@ -230,10 +251,9 @@ SightPacket SceneRenderer::SamplesOf(int x, int y, size_t round) const {
   return packet;
 }
 
-SceneRenderer::SampleSum SceneRenderer::SumOver(const Moving& moving, int x, int y, size_t round) const {
-  const size_t pixel = IndexOf(x, y);
+// Traces samples of a pixel and their shadows.
+ShadowPacket SceneRenderer::Look(const Moving& moving, size_t pixel, SightPacket& packet) const {
   const bool is_known = fixed_.is_even[pixel] != 0;
-  SightPacket packet = SamplesOf(x, y, round);
   if (!is_known) {
     room_scene_.Trace(packet);
     base_scene_.Trace(packet);
@@ -249,40 +269,57 @@ SceneRenderer::SampleSum SceneRenderer::SumOver(const Moving& moving, int x, int
   base_scene_.TraceShadows(light_.towards_in_camera, shadows);
   shadows.is_wanted = wanted;
   if (moving.scene) moving.scene->TraceShadows(light_.towards_in_camera, shadows);
-  return Sum(moving, pixel, packet, shadows);
+  return shadows;
 }
 
-SceneRenderer::SampleSum SceneRenderer::Sum(const Moving& moving, size_t pixel, const SightPacket& packet,
-                                            const ShadowPacket& shadows) const {
-  SampleSum sum;
+float SceneRenderer::SumOver(const Moving& moving, int x, int y, size_t round) const {
+  const size_t pixel = IndexOf(x, y);
+  SightPacket packet = SamplesOf(x, y, round);
+  const ShadowPacket shadows = Look(moving, pixel, packet);
+  float sum = 0;
   for (size_t i = 0; i < kPacketSize; ++i) {
     const int surface = packet.surface[i];
-    sum.is_even = sum.is_even && surface == packet.surface[0] && shadows.is_dark[i] == shadows.is_dark[0];
     if (surface < 0) {
-      sum.grey += background_grey_;
+      sum += background_grey_;
       continue;
     }
     const float paint = surface == fixed_.surface[pixel] ? fixed_.paint_grey[pixel]
                                                          : PaintGrey(moving, surface, shadows.origin[i]);
-    sum.grey += paint * light_.Share(packet.normal[i].dot(light_.towards_in_camera), !shadows.is_dark[i]);
+    sum += paint * light_.Share(packet.normal[i].dot(light_.towards_in_camera), !shadows.is_dark[i]);
   }
   return sum;
 }
 
-// Over one round of sight lines where these meet the same, which errs to both sides of an edge alike, or over
-// all rounds.
-float SceneRenderer::MeanOver(const Moving& moving, int x, int y) const {
-  const SampleSum first = SumOver(moving, x, y, 0);
-  if (first.is_even) return first.grey / kPacketSize;
-  float sum = first.grey;
-  for (size_t round = 1; round < kRounds; ++round) sum += SumOver(moving, x, y, round).grey;
-  return sum / (kRounds * kPacketSize);
+float SceneRenderer::MeanOver(const Moving& moving, int x, int y, size_t rounds) const {
+  float sum = 0;
+  for (size_t round = 0; round < rounds; ++round) sum += SumOver(moving, x, y, round);
+  return sum / static_cast<float>(rounds * kPacketSize);
 }
 
-float SceneRenderer::PixelGrey(const Moving& moving, const PixelViews& views, int x, int y) const {
-  const size_t pixel = IndexOf(x, y);
-  if (!IsNearTouched(views, x, y)) return fixed_.mean_grey[pixel];
-  return ShowsEdge(views, x, y) ? MeanOver(moving, x, y) : views.grey[pixel];
+// All rounds for what ends in the pixel, one for what bends there or begins to; none where the middle will do.
+size_t SceneRenderer::RoundsFor(const PixelViews& views, int x, int y, bool shows_edge) const {
+  if (shows_edge) return kRounds;
+  const bool is_lit_leg = views.key[IndexOf(x, y)] % 2 == 1 && views.is_touched[IndexOf(x, y)] != 0;
+  return Bends(views, x, y) || (is_lit_leg && HasOtherKeysAbout(views, x, y)) ? 1 : 0;
+}
+
+void SceneRenderer::FillRow(const Moving& moving, const PixelViews& views, int y, float* row) const {
+  for (int start = 0; start < lines_.width(); start += kCornered) {
+    std::optional<CornerKeys> corners;
+    for (int x = start; x < std::min(start + kCornered, lines_.width()); ++x) {
+      const size_t pixel = IndexOf(x, y);
+      const bool is_new = !moving.scene || IsNearTouched(views, x, y);
+      row[x] = is_new ? views.grey[pixel] : fixed_.mean_grey[pixel];
+      if (!is_new || !lines_.HasImage(x, y)) continue;
+      bool shows_edge = HasOtherKeysAbout(views, x, y);
+      if (shows_edge) {
+        if (!corners) corners = KeysAtCorners(moving, start, y);
+        shows_edge = !corners->AreAll(static_cast<size_t>(x - start), views.key[pixel]);
+      }
+      const size_t rounds = RoundsFor(views, x, y, shows_edge);
+      if (rounds > 0) row[x] = MeanOver(moving, x, y, rounds);
+    }
+  }
 }
 
 }  // namespace legible

@@ -1,7 +1,8 @@
 // Ray traces a scene of which most stands still.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/rig/blotches.h"
@@ -32,7 +33,8 @@ struct PixelViews {
 };
 
 // Looks once at what stands still. Each image then takes one sight line a pixel to what moves and one to the
-// light from where that may be dark, and many where surfaces or shadows end.
+// light from where that may be dark; where surfaces or shadows end between neighbours, it looks at the
+// corners of their pixels, and takes many sight lines where these differ.
 class SceneRenderer {
  public:
   // The room casts no shadows.
@@ -49,7 +51,7 @@ class SceneRenderer {
     std::vector<Eigen::Vector3f> normal;
     std::vector<int> surface;
     std::vector<char> is_lit;
-    std::vector<char> is_even;  // nothing that stands still ends in the pixel
+    std::vector<char> is_even;  // nothing that stands still ends in the pixel or in its neighbours
 
     explicit FixedViews(size_t count)
         : depth(count),
@@ -67,10 +69,15 @@ class SceneRenderer {
     std::vector<Paint> paints;
   };
 
-  // Of a packet of sight lines through one pixel.
-  struct SampleSum {
-    float grey = 0;
-    bool is_even = true;  // all met the same surface, and light or shadow alike
+  // What is met at the corners of some pixels of a row: upper ones, then lower ones.
+  static constexpr int kCornered = static_cast<int>(kPacketSize) / 2 - 1;  // pixels
+  struct CornerKeys {
+    std::array<int, kPacketSize> keys;
+
+    bool AreAll(size_t pixel, int key) const {
+      const size_t below = pixel + kPacketSize / 2;
+      return keys[pixel] == key && keys[pixel + 1] == key && keys[below] == key && keys[below + 1] == key;
+    }
   };
 
   size_t IndexOf(int x, int y) const {
@@ -80,19 +87,22 @@ class SceneRenderer {
   float PaintGrey(const Moving& moving, int surface, const Eigen::Vector3f& x_in_camera) const;
 
   SightPacket MiddlesOf(int x, int y) const;
+  ShadowPacket Shadows(const SightPacket& packet) const;
   void ViewFixed(int y, PixelViews& views);
   void ViewMoving(const Moving& moving, int y, PixelViews& views) const;
-  ShadowPacket Shadows(const SightPacket& packet) const;
 
+  // Whether the neighbours of a pixel see something else, or something that moves.
   bool HasOtherKeysAbout(const PixelViews& views, int x, int y) const;
-  bool ShowsEdge(const PixelViews& views, int x, int y) const;
   bool IsNearTouched(const PixelViews& views, int x, int y) const;
+  bool Bends(const PixelViews& views, int x, int y) const;
+  CornerKeys KeysAtCorners(const Moving& moving, int x, int y) const;
+
   SightPacket SamplesOf(int x, int y, size_t round) const;
-  SampleSum SumOver(const Moving& moving, int x, int y, size_t round) const;
-  SampleSum Sum(const Moving& moving, size_t pixel, const SightPacket& packet,
-                const ShadowPacket& shadows) const;
-  float MeanOver(const Moving& moving, int x, int y) const;
-  float PixelGrey(const Moving& moving, const PixelViews& views, int x, int y) const;
+  ShadowPacket Look(const Moving& moving, size_t pixel, SightPacket& packet) const;
+  float SumOver(const Moving& moving, int x, int y, size_t round) const;
+  float MeanOver(const Moving& moving, int x, int y, size_t rounds) const;
+  size_t RoundsFor(const PixelViews& views, int x, int y, bool shows_edge) const;
+  void FillRow(const Moving& moving, const PixelViews& views, int y, float* row) const;
 
   SightLines lines_;
   SceneLight light_;

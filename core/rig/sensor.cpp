@@ -11,18 +11,36 @@ namespace {
 
 constexpr int kRowsPerTask = 16;
 
-// Weights from the middle outwards; all of them, both ways, sum to 1.
-std::vector<float> GaussianWeights(double sigma_px) {
-  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
-  std::vector<double> weights;
+// A Gaussian sampled at the pixels: weights from the middle outwards, of which all but the first count twice
+// and the sum is 1.
+std::vector<double> SampledGaussian(double width_px, int reach) {
+  std::vector<double> weights(static_cast<size_t>(reach) + 1);
   double sum = 0;
   for (int i = 0; i <= reach; ++i) {
-    weights.push_back(i == 0 ? 1 : std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
-    sum += i == 0 ? 1 : 2 * weights.back();
+    const double weight = std::exp(-0.5 * i * i / (width_px * width_px));
+    weights[static_cast<size_t>(i)] = weight;
+    sum += i == 0 ? weight : 2 * weight;
   }
-  std::vector<float> result;
-  for (const double weight : weights) result.push_back(static_cast<float>(weight / sum));
-  return result;
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+double Variance(const std::vector<double>& weights) {
+  double variance = 0;
+  for (size_t i = 1; i < weights.size(); ++i) variance += 2 * weights[i] * static_cast<double>(i * i);
+  return variance;
+}
+
+// Of the sampled Gaussians the one of standard deviation sigma_px > 0: narrow ones lose some by the sampling.
+std::vector<float> GaussianWeights(double sigma_px) {
+  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
+  double low_px = 0.9 * sigma_px, high_px = sigma_px + 0.5;
+  for (int i = 0; i < 40; ++i) {
+    const double middle_px = 0.5 * (low_px + high_px);
+    (Variance(SampledGaussian(middle_px, reach)) < sigma_px * sigma_px ? low_px : high_px) = middle_px;
+  }
+  const std::vector<double> weights = SampledGaussian(high_px, reach);
+  return {weights.begin(), weights.end()};
 }
 
 template <typename RowJob>

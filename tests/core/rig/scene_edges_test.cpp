@@ -56,7 +56,7 @@ void AddEdges(const SimulationTruth& truth, const Rigid3& base_from_platform, Ed
   const BrightnessImage image = camera.TakeNoiseless(base_from_platform, {});
   const EdgePlaces places(image, truth.camera, options.leg_grey, options.ground_grey, kReach_px);
   for (const auto& of_leg : PredictEdges(LegsOf(truth, base_from_platform), truth.camera, {}))
-    for (const PredictedEdge& edge : of_leg) errors.Add(places.Of(edge));
+    for (const PredictedEdge& edge : of_leg) { errors.Add(places.Of(edge)); if(getenv("DBG")){auto c=places.Of(edge); if(c.size()>=60){double m=MeanError(c,0,c.size()); if(std::abs(m)>.004){printf("mean %.4f n %zu slope %.4f:",m,c.size(),c[0].slope); for(size_t i=0;i<c.size();i+=4)printf(" %.3f@%.2f",c[i].error_px,c[i].place_px); puts("");}}}}
 }
 
 void ExpectWithinAHundredth(const EdgeErrors& errors, size_t least_edges) {
