@@ -126,7 +126,8 @@ void BoundsOf(const RTCBoundsFunctionArguments* arguments) {
 
 // Calls met(i, depth, x) for each valid ray that meets the shape, with the first place where it does.
 template <typename Shape, typename Met>
-void ForEachMeeting(const Shape& shape, RTCRayN* packet, unsigned int count, const int* valid, const Met& met) {
+void ForEachMeeting(const Shape& shape, RTCRayN* packet, unsigned int count, const int* valid,
+                    const Met& met) {
   const Rays rays(packet, count);
   const Quadratics equations = shape.Equations(rays);
   for (unsigned int i = 0; i < count; ++i) {

@@ -13,8 +13,10 @@ void Demand(bool holds, const char* what) {
 }
 
 const SimulationTruth& Checked(const SimulationTruth& truth, const SceneOptions& options) {
-  Demand(truth.camera.width_px > 0 && truth.camera.height_px > 0, "the camera must have a width and a height");
-  Demand(truth.camera.fx_px > 0 && truth.camera.fy_px > 0, "the camera's focal lengths must be greater than 0");
+  Demand(truth.camera.width_px > 0 && truth.camera.height_px > 0,
+         "the camera must have a width and a height");
+  Demand(truth.camera.fx_px > 0 && truth.camera.fy_px > 0,
+         "the camera's focal lengths must be greater than 0");
   Demand(options.blur_px >= 0, "blur_px must be 0 or more");
   Demand(options.noise_grey >= 0, "noise_grey must be 0 or more");
   Demand(options.ambient >= 0 && options.ambient <= 1, "ambient must be 0 to 1");

@@ -46,9 +46,10 @@ int KeyOf(int surface, bool is_lit) { return surface < 0 ? kNoKey : 2 * surface 
 
 template <typename RowJob>
 void ForEachRow(int height, const RowJob& job) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) job(y);
-  });
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      for (int y = rows.begin(); y < rows.end(); ++y) job(y);
+                    });
 }
 
 }  // namespace
@@ -296,7 +297,8 @@ float SceneRenderer::MeanOver(const Moving& moving, int x, int y, size_t rounds)
   return sum / static_cast<float>(rounds * kPacketSize);
 }
 
-// All rounds for what ends in the pixel, one for what bends there or begins to; none where the middle will do.
+// All rounds for what ends in the pixel, one for what bends there or begins to; none where the middle will
+// do.
 size_t SceneRenderer::RoundsFor(const PixelViews& views, int x, int y, bool shows_edge) const {
   if (shows_edge) return kRounds;
   const bool is_lit_leg = views.key[IndexOf(x, y)] % 2 == 1 && views.is_touched[IndexOf(x, y)] != 0;

@@ -45,13 +45,15 @@ std::vector<float> GaussianWeights(double sigma_px) {
 
 template <typename RowJob>
 void ForEachRow(int height, const RowJob& job) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) job(y);
-  });
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      for (int y = rows.begin(); y < rows.end(); ++y) job(y);
+                    });
 }
 
 // One row from those about it.
-void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, int y, std::vector<float>& sum) {
+void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, int y,
+              std::vector<float>& sum) {
   const auto width = static_cast<size_t>(image.width);
   const float* const middle = image.Row(y);
   for (size_t x = 0; x < width; ++x) sum[x] = weights[0] * middle[x];
@@ -62,7 +64,8 @@ void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, i
   }
 }
 
-void BlurAcross(const std::vector<float>& padded, const std::vector<float>& weights, int width, float* result) {
+void BlurAcross(const std::vector<float>& padded, const std::vector<float>& weights, int width,
+                float* result) {
   const float* const from = padded.data() + weights.size() - 1;
   for (int x = 0; x < width; ++x) result[x] = weights[0] * from[x];
   for (int i = 1; i < static_cast<int>(weights.size()); ++i) {

@@ -34,11 +34,11 @@ struct SceneOptions {
   double noise_grey = 2;  // standard deviation of a pixel, grey levels
   double ambient = 0.45;  // share of the light that comes from everywhere
   Eigen::Vector3d light_in_base{0.45, 1.2, 1.0};  // towards the main light, far away; any length
-  double leg_grey = 200;                          // brightness where the light falls perpendicularly
-  double plate_grey = 30;
-  double joint_grey = 80;
-  double ground_grey = 40;
-  double texture_grey = 4;  // of the ground: standard deviation of smooth blotches
+  double leg_grey = 230;                          // brightness where the light falls perpendicularly
+  double plate_grey = 34;
+  double joint_grey = 90;
+  double ground_grey = 48;
+  double texture_grey = 5;  // of the ground: standard deviation of smooth blotches
 };
 
 enum class FaultKind {

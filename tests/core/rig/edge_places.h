@@ -14,10 +14,10 @@ namespace legible {
 
 // A row or column of pixels that an edge crosses.
 struct EdgeCrossing {
-  double place_px = 0;     // of the true edge along the row or column
-  double error_px = 0;     // by which the leg ends farther out in the image than in truth
-  double variance_px2 = 0; // of the brightness's slope about the true place, along the row or column
-  double slope = 0;        // of the edge: how far its place moves from one row or column to the next
+  double place_px = 0;      // of the true edge along the row or column
+  double error_px = 0;      // by which the leg ends farther out in the image than in truth
+  double variance_px2 = 0;  // of the brightness's slope about the true place, along the row or column
+  double slope = 0;         // of the edge: how far its place moves from one row or column to the next
 };
 
 class EdgePlaces {
@@ -25,7 +25,11 @@ class EdgePlaces {
   // Rows and columns are looked at to `reach` pixels on both sides of an edge.
   EdgePlaces(const BrightnessImage& image, const Camera& camera, double leg_grey, double background_grey,
              int reach)
-      : image_(image), camera_(camera), leg_grey_(leg_grey), background_grey_(background_grey), reach_(reach) {}
+      : image_(image),
+        camera_(camera),
+        leg_grey_(leg_grey),
+        background_grey_(background_grey),
+        reach_(reach) {}
 
   // Of the stretches of an edge that nothing is near.
   std::vector<EdgeCrossing> Of(const PredictedEdge& edge) const {

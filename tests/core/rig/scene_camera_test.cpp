@@ -41,9 +41,8 @@ TEST(SceneCamera, TakesTheSameImageAgainWithAnyNumberOfThreads) {
   const GrayImage image = camera.Take(truth.robot.home, {2}, 7);
   EXPECT_EQ(camera.Take(truth.robot.home, {2}, 7).pixels, image.pixels);
   tbb::task_arena one_thread(1);
-  one_thread.execute([&] {
-    EXPECT_EQ(SceneCamera(truth, {}, 5).Take(truth.robot.home, {2}, 7).pixels, image.pixels);
-  });
+  one_thread.execute(
+      [&] { EXPECT_EQ(SceneCamera(truth, {}, 5).Take(truth.robot.home, {2}, 7).pixels, image.pixels); });
   EXPECT_NE(camera.Take(truth.robot.home, {2}, 8).pixels, image.pixels);
   EXPECT_NE(SceneCamera(truth, {}, 6).Take(truth.robot.home, {2}, 7).pixels, image.pixels);
 }
@@ -120,7 +119,8 @@ TEST(SceneCamera, ThePlatformCastsItsShadowOnTheGround) {
   };
   const double cosine = options.light_in_base.normalized().z();
   EXPECT_NEAR(grey_of(in_shadow), options.ground_grey * options.ambient, 0.1);
-  EXPECT_NEAR(grey_of(in_light), options.ground_grey * (options.ambient + (1 - options.ambient) * cosine), 0.1);
+  EXPECT_NEAR(grey_of(in_light), options.ground_grey * (options.ambient + (1 - options.ambient) * cosine),
+              0.1);
 }
 
 // Where the image of the lens ends, short of the sensor's corners.

@@ -56,7 +56,7 @@ void AddEdges(const SimulationTruth& truth, const Rigid3& base_from_platform, Ed
   const BrightnessImage image = camera.TakeNoiseless(base_from_platform, {});
   const EdgePlaces places(image, truth.camera, options.leg_grey, options.ground_grey, kReach_px);
   for (const auto& of_leg : PredictEdges(LegsOf(truth, base_from_platform), truth.camera, {}))
-    for (const PredictedEdge& edge : of_leg) { errors.Add(places.Of(edge)); if(getenv("DBG")){auto c=places.Of(edge); if(c.size()>=60){double m=MeanError(c,0,c.size()); if(std::abs(m)>.004){printf("mean %.4f n %zu slope %.4f:",m,c.size(),c[0].slope); for(size_t i=0;i<c.size();i+=4)printf(" %.3f@%.2f",c[i].error_px,c[i].place_px); puts("");}}}}
+    for (const PredictedEdge& edge : of_leg) errors.Add(places.Of(edge));
 }
 
 void ExpectWithinAHundredth(const EdgeErrors& errors, size_t least_edges) {
@@ -65,9 +65,10 @@ void ExpectWithinAHundredth(const EdgeErrors& errors, size_t least_edges) {
   EXPECT_LT(Rms(errors.of_edges_px), 0.005);
   EXPECT_LT(Largest(errors.of_edges_px), 0.01);
   EXPECT_LT(Largest(errors.of_stretches_px), 0.025);
-  std::printf("%zu edges: mean %.5f, rms %.5f, largest %.5f px; stretches of 30 px: rms %.4f, largest %.4f px\n",
-              errors.of_edges_px.size(), Mean(errors.of_edges_px), Rms(errors.of_edges_px),
-              Largest(errors.of_edges_px), Rms(errors.of_stretches_px), Largest(errors.of_stretches_px));
+  std::printf(
+      "%zu edges: mean %.5f, rms %.5f, largest %.5f px; stretches of 30 px: rms %.4f, largest %.4f px\n",
+      errors.of_edges_px.size(), Mean(errors.of_edges_px), Rms(errors.of_edges_px),
+      Largest(errors.of_edges_px), Rms(errors.of_stretches_px), Largest(errors.of_stretches_px));
 }
 
 TEST(SceneEdges, LieWithinAHundredthOfAPixelOfTheOutlineThroughTheLensInEveryDirection) {
@@ -178,6 +179,33 @@ TEST(SceneEdges, AreMeasuredOnLegsInTheLightAsOnImagesRenderedElsewhere) {
   std::printf("%.0f of %d edges in sight measured, rms %.4f px\n", measured, in_sight, Rms(offsets_px));
 }
 
+// Seen from all around, from low above the ground to steeply above the platform.
+TEST(SceneEdges, AreHiddenNowhereWherePredictionsSayThatTheyAreInSight) {
+  std::mt19937_64 generator = TestGenerator();
+  SceneOptions options = EvenScene();
+  options.blur_px = 0;
+  int points = 0, hidden = 0;
+  for (int draw = 0; draw < 12; ++draw) {
+    SimulationTruth truth = DesktopTruth(HalfCamera(true));
+    const double azimuth_rad = Uniform(generator, -std::numbers::pi, std::numbers::pi);
+    truth.camera_from_base =
+        LookAt({std::cos(azimuth_rad), std::sin(azimuth_rad), 0.02 + 0.1 * draw}, {0, 0, 0.15});
+    const Rigid3 pose = RandomPose(generator);
+    const BrightnessImage image = SceneCamera(truth, options, 1).TakeNoiseless(pose, {});
+    for (const auto& of_leg : PredictEdges(LegsOf(truth, pose), truth.camera, {}))
+      for (const PredictedEdge& edge : of_leg)
+        for (const PredictedEdgePoint& point : edge.points) {
+          if (point.obstacle != EdgeObstacle::kNone) continue;
+          const Eigen::Vector2d inside = point.point_px - 1.5 * point.normal_px;
+          const float grey = image.Row(static_cast<int>(std::lround(inside.y())))[std::lround(inside.x())];
+          ++points;
+          hidden += std::abs(grey - options.leg_grey) > 1 ? 1 : 0;
+        }
+  }
+  EXPECT_GT(points, 2000);
+  EXPECT_EQ(hidden, 0);
+}
+
 TEST(SceneEdges, OfACoveredLegAreNotFound) {
   std::mt19937_64 generator = TestGenerator();
   const SimulationTruth truth = DesktopTruth(DesktopCamera(true));
@@ -186,7 +214,8 @@ TEST(SceneEdges, OfACoveredLegAreNotFound) {
   const LegsInCamera legs = LegsOf(truth, pose);
   for (int covered = 0; covered < kLegCount; ++covered) {
     int measured = 0;
-    for (const LegEdge& edge : MeasureLegEdges(camera.Take(pose, {covered}, 3), legs, truth.camera, {}).edges) {
+    for (const LegEdge& edge :
+         MeasureLegEdges(camera.Take(pose, {covered}, 3), legs, truth.camera, {}).edges) {
       measured += edge.left_out.empty() ? 1 : 0;
       if (edge.leg == covered) {
         EXPECT_NE(edge.left_out, "") << covered + 1;
