@@ -17,10 +17,11 @@ constexpr int kNoKey = -1;
 // differs from its middle by a twelfth of that at most.
 constexpr float kLargestBend_grey = 2;
 
-// Places of the sight lines over a pixel: Korobov's lattice, moved as a whole by another amount in each
-// pixel. The share of them on one side of a straight edge of any direction is off by 0.016 (rms), and by
-// nothing on average. Every third of them, the first round, is a lattice of 16.
-constexpr size_t kRounds = 3, kSamples = kRounds * kPacketSize, kGenerator = 37;
+// Places of the sight lines over a pixel: Korobov's lattice of 48 that is most even in all directions, moved
+// as a whole by another amount in each pixel. The share of them on one side of a straight edge is off by
+// 0.018 (rms; 0.032 for edges in the least even direction), and by nothing on average. Every third of them is
+// a round: a lattice of 16.
+constexpr size_t kRounds = 3, kSamples = kRounds * kPacketSize, kGenerator = 7;
 
 Eigen::Vector2d SamplePlace(size_t sample, const Eigen::Vector2d& shift) {
   const auto part = [](size_t n) { return static_cast<double>(n) / kSamples; };
@@ -77,9 +78,9 @@ SceneRenderer::SceneRenderer(const Camera& camera, const SceneParts& room, const
   });
 }
 
-BrightnessImage SceneRenderer::Render(const SceneParts& parts) const {
-  const RayScene scene(parts, static_cast<int>(fixed_paints_.size()));
-  const Moving moving{&scene, PaintsOf(parts)};
+BrightnessImage SceneRenderer::Render(const SceneParts& moving_parts) const {
+  const RayScene scene(moving_parts, static_cast<int>(fixed_paints_.size()));
+  const Moving moving{&scene, PaintsOf(moving_parts)};
   PixelViews views(IndexOf(0, lines_.height()));
   ForEachRow(lines_.height(), [&](int y) { ViewMoving(moving, y, views); });
   BrightnessImage image{lines_.width(), lines_.height(), std::vector<float>(views.grey.size())};

@@ -42,7 +42,7 @@ class SceneRenderer {
                 double background_grey, const Blotches& blotches);
 
   // Mean brightness over each pixel.
-  BrightnessImage Render(const SceneParts& moving) const;
+  BrightnessImage Render(const SceneParts& moving_parts) const;
 
  private:
   // What stands still as the middle of each pixel sees it, and as the whole pixel does.

@@ -11,7 +11,7 @@ namespace legible {
 namespace {
 
 constexpr int kReach_px = 6;
-constexpr size_t kLeastCrossings = 60;
+constexpr size_t kLeastCrossings = 100;
 
 double MeanError(const std::vector<EdgeCrossing>& crossings, size_t from, size_t to) {
   double sum = 0;
@@ -81,7 +81,7 @@ TEST(SceneEdges, LieWithinAHundredthOfAPixelOfTheOutlineThroughTheLensInEveryDir
         Rolled(truth.camera_from_base, Uniform(generator, -std::numbers::pi, std::numbers::pi));
     AddEdges(truth, RandomPose(generator), errors);
   }
-  ExpectWithinAHundredth(errors, 40);
+  ExpectWithinAHundredth(errors, 30);
 }
 
 // There the places that an edge takes within its pixels change only slowly along it.
@@ -98,7 +98,7 @@ TEST(SceneEdges, LieThereAlsoWhereTheyAreAlongTheRowsOrColumns) {
           Rolled(truth.camera_from_base, angle_rad + off_rad - std::atan2(normal.y(), normal.x()));
       AddEdges(truth, pose, errors);
     }
-  ExpectWithinAHundredth(errors, 25);
+  ExpectWithinAHundredth(errors, 20);
 }
 
 TEST(SceneEdges, BendAsTheLensDistorts) {
@@ -159,7 +159,7 @@ TEST(SceneEdges, AreMeasuredOnLegsInTheLightAsOnImagesRenderedElsewhere) {
   const SceneCamera camera(truth, {}, 1);
   std::vector<double> offsets_px;
   int in_sight = 0, with_contrast = 0;
-  for (std::uint64_t frame = 0; frame < 6; ++frame) {
+  for (std::uint64_t frame = 0; frame < 10; ++frame) {
     const Rigid3 pose = RandomPose(generator);
     const LegsInCamera legs = LegsOf(truth, pose);
     const PredictedEdges predicted = PredictEdges(legs, truth.camera, {});
@@ -172,14 +172,14 @@ TEST(SceneEdges, AreMeasuredOnLegsInTheLightAsOnImagesRenderedElsewhere) {
     }
   }
   const double measured = static_cast<double>(offsets_px.size());
-  EXPECT_GE(in_sight, 60);
+  EXPECT_GE(in_sight, 100);
   EXPECT_GE(measured, 0.95 * in_sight);
   EXPECT_GE(with_contrast, 0.9 * measured);
   EXPECT_LT(Rms(offsets_px), 0.03);
   std::printf("%.0f of %d edges in sight measured, rms %.4f px\n", measured, in_sight, Rms(offsets_px));
 }
 
-// Seen from all around, from low above the ground to steeply above the platform.
+// Seen from all around, from low above the ground to 35 degrees above it.
 TEST(SceneEdges, AreHiddenNowhereWherePredictionsSayThatTheyAreInSight) {
   std::mt19937_64 generator = TestGenerator();
   SceneOptions options = EvenScene();
@@ -189,7 +189,7 @@ TEST(SceneEdges, AreHiddenNowhereWherePredictionsSayThatTheyAreInSight) {
     SimulationTruth truth = DesktopTruth(HalfCamera(true));
     const double azimuth_rad = Uniform(generator, -std::numbers::pi, std::numbers::pi);
     truth.camera_from_base =
-        LookAt({std::cos(azimuth_rad), std::sin(azimuth_rad), 0.02 + 0.1 * draw}, {0, 0, 0.15});
+        LookAt({std::cos(azimuth_rad), std::sin(azimuth_rad), 0.02 + 0.075 * draw}, {0, 0, 0.15});
     const Rigid3 pose = RandomPose(generator);
     const BrightnessImage image = SceneCamera(truth, options, 1).TakeNoiseless(pose, {});
     for (const auto& of_leg : PredictEdges(LegsOf(truth, pose), truth.camera, {}))
