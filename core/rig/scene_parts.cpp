@@ -12,11 +12,11 @@ namespace {
 
 // In leg radii.
 constexpr double kBallRadii = 1.45, kPostRadii = 0.8;
-constexpr double kPlateGapRadii = 0.9;  // from the outermost joint to the plate
-constexpr double kPlatformThicknessRadii = 0.6;
+constexpr double kPlateGapRadii = 0.8;  // from the outermost joint to the plate
+constexpr double kPlatformThicknessRadii = 0.5;
 constexpr double kBoardHalfWidthRadii = 4, kBoardBeforeRadii = 4, kBoardBeyondRadii = 1;
 
-constexpr double kPlatformMargin_m = 0.008, kBaseMargin_m = 0.035, kBaseThickness_m = 0.02;
+constexpr double kPlatformMargin_m = 0.003, kBaseMargin_m = 0.035, kBaseThickness_m = 0.02;
 constexpr double kLeastRoomRadius_m = 3, kGroundBelowCamera_m = 0.3;
 
 using Points = std::vector<Eigen::Vector3d>;

@@ -49,9 +49,8 @@ SceneParts RoomParts(const SimulationTruth& truth, const SceneOptions& options);
 SceneParts BaseParts(const SimulationTruth& truth, const SceneOptions& options);
 
 // Legs, platform and its joints, and a board a little before each of the covered legs (0-based). What hides
-// the legs lies within what PredictEdges expects to, for cameras up to 35 degrees above the base plane:
-// joints of 1.45 leg radii, a thin plate on the far side of the platform joints and within their outline
-// widened by a third of the margin given to it there.
+// the legs lies within what PredictEdges expects to, for cameras up to 35 degrees above the base plane: balls
+// of 1.45 leg radii, and a thin plate on the far side of the platform joints that ends 3 mm beyond them.
 SceneParts MovingParts(const SimulationTruth& truth, const SceneOptions& options,
                        const Rigid3& base_from_platform, const std::vector<int>& covered_legs);
 

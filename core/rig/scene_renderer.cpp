@@ -97,7 +97,7 @@ float SceneRenderer::PaintGrey(const Moving& moving, int surface, const Eigen::V
 
 // Through the middles of the pixels from (x, y) on; those beyond the row's end or the lens's see nothing.
 SightPacket SceneRenderer::MiddlesOf(int x, int y) const {
-  SightPacket packet;
+  SightPacket packet = {};
   for (size_t i = 0; i < kPacketSize; ++i) {
     const int column = x + static_cast<int>(i);
     const bool is_seen = column < lines_.width() && lines_.HasImage(column, y);

@@ -110,8 +110,8 @@ TEST(SceneCamera, ThePlatformCastsItsShadowOnTheGround) {
   const SimulationTruth truth = DesktopTruth(HalfCamera(true));
   SceneOptions options;
   options.texture_grey = 0;
-  // The base plate's lower side, on which the robot stands: 9 mm and 20 mm below the joints.
-  const Eigen::Vector3d in_shadow(0.15, 0.42, -0.029), in_light(0.35, 0.35, -0.029);
+  // The base plate's lower side, on which the robot stands: 8 mm and 20 mm below the joints.
+  const Eigen::Vector3d in_shadow(0.15, 0.42, -0.028), in_light(0.35, 0.35, -0.028);
   options.light_in_base = truth.robot.home.translation - in_shadow;
   const BrightnessImage image = SceneCamera(truth, options, 1).TakeNoiseless(truth.robot.home, {});
   const auto grey_of = [&](const Eigen::Vector3d& x) {
