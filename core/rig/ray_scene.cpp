@@ -14,28 +14,36 @@ namespace {
 constexpr float kShadowStart_m = 1e-3F;  // beyond what rounding makes of a surface's own outside
 constexpr double kBoundsMargin_m = 1e-4;
 
-struct Ray {
-  Eigen::Vector3d origin, direction;
-  double from, to;  // in lengths of the direction
+// One number a ray of a packet.
+using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kPacketSize, 1>;
+struct NumberVectors {
+  Numbers x, y, z;
 
-  bool Reaches(double depth) const { return depth > from && depth < to; }
+  Numbers Dot(const Eigen::Vector3d& v) const { return v.x() * x + v.y() * y + v.z() * z; }
+  Numbers Dot(const NumberVectors& other) const { return x * other.x + y * other.y + z * other.z; }
+  Eigen::Vector3d operator[](Eigen::Index i) const { return {x[i], y[i], z[i]}; }
 };
 
-struct Meeting {
-  double depth;
-  Eigen::Vector3d normal;  // outward, unit
+// As Embree hands them over.
+struct Rays {
+  NumberVectors origin, direction;
+
+  Rays(RTCRayN* rays, unsigned int count)
+      : origin{Read(&RTCRayN_org_x(rays, count, 0), count), Read(&RTCRayN_org_y(rays, count, 0), count),
+               Read(&RTCRayN_org_z(rays, count, 0), count)},
+        direction{Read(&RTCRayN_dir_x(rays, count, 0), count), Read(&RTCRayN_dir_y(rays, count, 0), count),
+                  Read(&RTCRayN_dir_z(rays, count, 0), count)} {}
+
+ private:
+  static Numbers Read(const float* numbers, unsigned int count) {
+    return Eigen::Map<const Eigen::ArrayXf>(numbers, count).cast<double>();
+  }
 };
 
-// Of the roots of p s^2 - 2 q s + c = 0, in order, the first that `accepts`.
-template <typename Accepts>
-std::optional<double> FirstRoot(double p, double q, double c, const Accepts& accepts) {
-  const double discriminant = q * q - p * c;
-  if (!(discriminant >= 0)) return std::nullopt;
-  const double root = std::sqrt(discriminant);
-  if (const double s = (q - root) / p; accepts(s)) return s;
-  if (const double s = (q + root) / p; accepts(s)) return s;
-  return std::nullopt;
-}
+// A ray meets a surface where p s^2 - 2 q s + c = 0; the discriminant is q^2 - p c.
+struct Quadratics {
+  Numbers p, q, discriminant;
+};
 
 class CylinderShape {
  public:
@@ -47,20 +55,22 @@ class CylinderShape {
     if (length_m_ > 0) axis_ = (cylinder.end_in_camera - start_) / length_m_;
   }
 
-  std::optional<Meeting> Meet(const Ray& ray) const {
-    const Eigen::Vector3d to_start = start_ - ray.origin;
-    const double along_ray = ray.direction.dot(axis_), along_start = to_start.dot(axis_);
-    // Squares and products of what is across the axis.
-    const Eigen::Vector3d ray_across = ray.direction - along_ray * axis_;
-    const Eigen::Vector3d start_across = to_start - along_start * axis_;
-    const auto depth =
-        FirstRoot(ray_across.squaredNorm(), ray_across.dot(start_across),
-                  start_across.squaredNorm() - radius_m_ * radius_m_, [&](double s) {
-                    const double along_m = s * along_ray - along_start;
-                    return ray.Reaches(s) && along_m >= 0 && along_m <= length_m_;
-                  });
-    if (!depth) return std::nullopt;
-    return Meeting{*depth, (*depth * ray_across - start_across) / radius_m_};
+  Quadratics Equations(const Rays& rays) const {
+    const NumberVectors to_start{start_.x() - rays.origin.x, start_.y() - rays.origin.y,
+                                 start_.z() - rays.origin.z};
+    const Numbers along_ray = rays.direction.Dot(axis_), along_start = to_start.Dot(axis_);
+    const Numbers p = rays.direction.Dot(rays.direction) - along_ray.square();
+    const Numbers q = rays.direction.Dot(to_start) - along_ray * along_start;
+    const Numbers c = to_start.Dot(to_start) - along_start.square() - radius_m_ * radius_m_;
+    return {p, q, q.square() - p * c};
+  }
+  bool Holds(const Eigen::Vector3d& x) const {
+    const double along_m = (x - start_).dot(axis_);
+    return along_m >= 0 && along_m <= length_m_;
+  }
+  Eigen::Vector3d NormalAt(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d from_start = x - start_;
+    return (from_start - from_start.dot(axis_) * axis_) / radius_m_;
   }
 
   Eigen::AlignedBox3d Bounds() const {
@@ -71,8 +81,6 @@ class CylinderShape {
     return box;
   }
 
-  bool CastsShadow() const { return true; }
-
  private:
   Eigen::Vector3d start_, axis_;
   double length_m_, radius_m_;
@@ -80,35 +88,35 @@ class CylinderShape {
 
 class BallShape {
  public:
-  explicit BallShape(const Ball& ball)
-      : centre_(ball.centre_in_camera), radius_m_(ball.radius_m), casts_shadow_(ball.casts_shadow) {}
+  explicit BallShape(const Ball& ball) : centre_(ball.centre_in_camera), radius_m_(ball.radius_m) {}
 
-  std::optional<Meeting> Meet(const Ray& ray) const {
-    const Eigen::Vector3d to_centre = centre_ - ray.origin;
-    const auto depth =
-        FirstRoot(ray.direction.squaredNorm(), ray.direction.dot(to_centre),
-                  to_centre.squaredNorm() - radius_m_ * radius_m_, [&](double s) { return ray.Reaches(s); });
-    if (!depth) return std::nullopt;
-    return Meeting{*depth, (*depth * ray.direction - to_centre) / radius_m_};
+  Quadratics Equations(const Rays& rays) const {
+    const NumberVectors to_centre{centre_.x() - rays.origin.x, centre_.y() - rays.origin.y,
+                                  centre_.z() - rays.origin.z};
+    const Numbers p = rays.direction.Dot(rays.direction), q = rays.direction.Dot(to_centre);
+    return {p, q, q.square() - p * (to_centre.Dot(to_centre) - radius_m_ * radius_m_)};
   }
+  bool Holds(const Eigen::Vector3d& /*x*/) const { return true; }
+  Eigen::Vector3d NormalAt(const Eigen::Vector3d& x) const { return (x - centre_) / radius_m_; }
 
   Eigen::AlignedBox3d Bounds() const {
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m_);
     return {centre_ - reach, centre_ + reach};
   }
 
-  bool CastsShadow() const { return casts_shadow_; }
-
  private:
   Eigen::Vector3d centre_;
   double radius_m_;
-  bool casts_shadow_;
 };
 
 template <typename Shape>
+const Shape& ShapeOf(const void* shapes, unsigned int index) {
+  return (*static_cast<const std::vector<Shape>*>(shapes))[index];
+}
+
+template <typename Shape>
 void BoundsOf(const RTCBoundsFunctionArguments* arguments) {
-  const auto& shapes = *static_cast<const std::vector<Shape>*>(arguments->geometryUserPtr);
-  const Eigen::AlignedBox3d box = shapes[arguments->primID].Bounds();
+  const Eigen::AlignedBox3d box = ShapeOf<Shape>(arguments->geometryUserPtr, arguments->primID).Bounds();
   const Eigen::Vector3f low = (box.min().array() - kBoundsMargin_m).cast<float>();
   const Eigen::Vector3f high = (box.max().array() + kBoundsMargin_m).cast<float>();
   RTCBounds& bounds = *arguments->bounds_o;
@@ -116,42 +124,53 @@ void BoundsOf(const RTCBoundsFunctionArguments* arguments) {
   bounds.upper_x = high.x(), bounds.upper_y = high.y(), bounds.upper_z = high.z();
 }
 
-Ray RayAt(RTCRayN* rays, unsigned int count, unsigned int i) {
-  return {{RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i)},
-          {RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i)},
-          RTCRayN_tnear(rays, count, i),
-          RTCRayN_tfar(rays, count, i)};
+// Calls met(i, depth, x) for each valid ray that meets the shape, with the first place where it does.
+template <typename Shape, typename Met>
+void ForEachMeeting(const Shape& shape, RTCRayN* packet, unsigned int count, const int* valid,
+                    const Met& met) {
+  const Rays rays(packet, count);
+  const Quadratics equations = shape.Equations(rays);
+  for (unsigned int i = 0; i < count; ++i) {
+    if (valid[i] == 0 || !(equations.discriminant[i] >= 0)) continue;
+    const double root = std::sqrt(equations.discriminant[i]);
+    for (const double numerator : {equations.q[i] - root, equations.q[i] + root}) {
+      const double depth = numerator / equations.p[i];
+      if (!(depth > RTCRayN_tnear(packet, count, i) && depth < RTCRayN_tfar(packet, count, i))) continue;
+      const Eigen::Vector3d x = rays.origin[i] + depth * rays.direction[i];
+      if (!shape.Holds(x)) continue;
+      met(i, depth, x);
+      break;
+    }
+  }
 }
 
 template <typename Shape>
 void Intersect(const RTCIntersectFunctionNArguments* arguments) {
   const unsigned int count = arguments->N;
-  const Shape& shape =
-      (*static_cast<const std::vector<Shape>*>(arguments->geometryUserPtr))[arguments->primID];
+  const Shape& shape = ShapeOf<Shape>(arguments->geometryUserPtr, arguments->primID);
   RTCRayN* const rays = RTCRayHitN_RayN(arguments->rayhit, count);
   RTCHitN* const hits = RTCRayHitN_HitN(arguments->rayhit, count);
-  for (unsigned int i = 0; i < count; ++i) {
-    if (arguments->valid[i] == 0) continue;
-    const std::optional<Meeting> meeting = shape.Meet(RayAt(rays, count, i));
-    if (!meeting) continue;
-    RTCRayN_tfar(rays, count, i) = static_cast<float>(meeting->depth);
-    RTCHitN_Ng_x(hits, count, i) = static_cast<float>(meeting->normal.x());
-    RTCHitN_Ng_y(hits, count, i) = static_cast<float>(meeting->normal.y());
-    RTCHitN_Ng_z(hits, count, i) = static_cast<float>(meeting->normal.z());
-    RTCHitN_primID(hits, count, i) = arguments->primID;
-    RTCHitN_geomID(hits, count, i) = arguments->geomID;
-    RTCHitN_instID(hits, count, i, 0) = RTC_INVALID_GEOMETRY_ID;
-  }
+  ForEachMeeting(shape, rays, count, arguments->valid,
+                 [&](unsigned int i, double depth, const Eigen::Vector3d& x) {
+                   const Eigen::Vector3f normal = shape.NormalAt(x).template cast<float>();
+                   RTCRayN_tfar(rays, count, i) = static_cast<float>(depth);
+                   RTCHitN_Ng_x(hits, count, i) = normal.x();
+                   RTCHitN_Ng_y(hits, count, i) = normal.y();
+                   RTCHitN_Ng_z(hits, count, i) = normal.z();
+                   RTCHitN_primID(hits, count, i) = arguments->primID;
+                   RTCHitN_geomID(hits, count, i) = arguments->geomID;
+                   RTCHitN_instID(hits, count, i, 0) = RTC_INVALID_GEOMETRY_ID;
+                 });
 }
 
 template <typename Shape>
 void Occlude(const RTCOccludedFunctionNArguments* arguments) {
-  const Shape& shape =
-      (*static_cast<const std::vector<Shape>*>(arguments->geometryUserPtr))[arguments->primID];
-  if (!shape.CastsShadow()) return;
-  for (unsigned int i = 0; i < arguments->N; ++i)
-    if (arguments->valid[i] != 0 && shape.Meet(RayAt(arguments->ray, arguments->N, i)))
-      RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
+  const unsigned int count = arguments->N;
+  RTCRayN* const rays = arguments->ray;
+  ForEachMeeting(ShapeOf<Shape>(arguments->geometryUserPtr, arguments->primID), rays, count, arguments->valid,
+                 [&](unsigned int i, double /*depth*/, const Eigen::Vector3d& /*x*/) {
+                   RTCRayN_tfar(rays, count, i) = -std::numeric_limits<float>::infinity();
+                 });
 }
 
 // One for the program: making one takes longer than an image.

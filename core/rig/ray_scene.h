@@ -36,7 +36,8 @@ struct alignas(64) ShadowPacket {
 };
 
 // Cylinders and balls are met where they are in double precision: their outlines are no polygons. Surfaces
-// count from first_surface: cylinders, then balls, then faces, in their order. May be used by several threads.
+// count from first_surface: cylinders, then balls, then faces, in their order. May be used by several
+// threads.
 class RayScene {
  public:
   RayScene(const SceneParts& parts, int first_surface);

@@ -13,8 +13,10 @@ void Demand(bool holds, const char* what) {
 }
 
 const SimulationTruth& Checked(const SimulationTruth& truth, const SceneOptions& options) {
-  Demand(truth.camera.width_px > 0 && truth.camera.height_px > 0, "the camera must have a width and a height");
-  Demand(truth.camera.fx_px > 0 && truth.camera.fy_px > 0, "the camera's focal lengths must be greater than 0");
+  Demand(truth.camera.width_px > 0 && truth.camera.height_px > 0,
+         "the camera must have a width and a height");
+  Demand(truth.camera.fx_px > 0 && truth.camera.fy_px > 0,
+         "the camera's focal lengths must be greater than 0");
   Demand(options.blur_px >= 0, "blur_px must be 0 or more");
   Demand(options.noise_grey >= 0, "noise_grey must be 0 or more");
   Demand(options.ambient >= 0 && options.ambient <= 1, "ambient must be 0 to 1");
@@ -36,8 +38,8 @@ class SceneCamera::Scene {
   Scene(const SimulationTruth& truth, const SceneOptions& options, std::uint64_t seed)
       : truth_(Checked(truth, options)),
         options_(options),
-        renderer_(truth.camera, FixedParts(truth, options), LightOf(truth, options), options.ground_grey,
-                  Blotches(options.texture_grey, Scrambled(seed))),
+        renderer_(truth.camera, RoomParts(truth, options), BaseParts(truth, options), LightOf(truth, options),
+                  options.ground_grey, Blotches(options.texture_grey, Scrambled(seed))),
         noise_(options.noise_grey, seed) {}
 
   BrightnessImage Render(const Rigid3& base_from_platform, const std::vector<int>& covered_legs) const {

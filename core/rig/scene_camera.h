@@ -14,8 +14,8 @@ namespace legible {
 // Legs, joints and plates on a ground, in a light of which one part (SceneOptions::ambient) comes from
 // everywhere and the rest from far away in one direction, with shadows; matt surfaces (Lambert's law):
 //   brightness = grey (ambient + (1 - ambient) max(0, normal . towards_light) [unless in shadow])
-// Each pixel is the mean over its extent, the edges of everything through the exact lens model; then comes the
-// blur. Where the lens has no image of anything the ground's grey is seen.
+// Each pixel is the mean over its extent, the edges of everything through the exact lens model; then comes
+// the blur. Where the lens has no image of anything the ground's grey is seen.
 //
 // Several threads may take images with one camera. Images depend on the arguments and on nothing else, not on
 // the number of threads either.

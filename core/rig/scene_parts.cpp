@@ -11,12 +11,12 @@ namespace legible {
 namespace {
 
 // In leg radii.
-constexpr double kBallRadii = 1.7, kPostRadii = 0.8;
-constexpr double kPlateGapRadii = 1.3;  // from the outermost joint to the plate
-constexpr double kPlatformThicknessRadii = 0.6;
+constexpr double kBallRadii = 1.45, kPostRadii = 0.8;
+constexpr double kPlateGapRadii = 0.8;  // from the outermost joint to the plate
+constexpr double kPlatformThicknessRadii = 0.5;
 constexpr double kBoardHalfWidthRadii = 4, kBoardBeforeRadii = 4, kBoardBeyondRadii = 1;
 
-constexpr double kPlatformMargin_m = 0.012, kBaseMargin_m = 0.035, kBaseThickness_m = 0.02;
+constexpr double kPlatformMargin_m = 0.003, kBaseMargin_m = 0.035, kBaseThickness_m = 0.02;
 constexpr double kLeastRoomRadius_m = 3, kGroundBelowCamera_m = 0.3;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -120,15 +120,6 @@ void AddSquare(const Eigen::Vector3d& centre, const Eigen::Vector3d& a, const Ei
                          paint});
 }
 
-void AddRoom(const Plate& base, const Paint& paint, SceneParts& parts) {
-  const Eigen::Vector3d camera = Eigen::Vector3d::Zero();
-  const double depth_m = std::max(base.far_m, base.plane.Height(camera) + kGroundBelowCamera_m);
-  const double radius_m = std::max(kLeastRoomRadius_m, 1.5 * base.plane.centre.norm() + 1);
-  AddSquare(base.plane.Lifted(Eigen::Vector2d::Zero(), depth_m), radius_m * base.plane.along.col(0),
-            radius_m * base.plane.along.col(1), paint, parts);
-  parts.balls.push_back({base.plane.centre, radius_m, paint, false});
-}
-
 // A board before a leg, as seen from the camera.
 void AddBoard(const LegInCamera& leg, const Paint& paint, SceneParts& parts) {
   const Eigen::Vector3d middle = leg.AxisPoint(0.5), axis = leg.b_in_camera - leg.a_in_camera;
@@ -152,19 +143,33 @@ Points PlatformJoints(const LegsInCamera& legs) {
   return joints;
 }
 
+Plate BasePlate(const LegsInCamera& legs) {
+  return PlateOver(BaseJoints(legs), Centre(PlatformJoints(legs)), kPlateGapRadii * LargestRadius(legs),
+                   kBaseThickness_m);
+}
+
 }  // namespace
 
-SceneParts FixedParts(const SimulationTruth& truth, const SceneOptions& options) {
-  const LegsInCamera legs = PlaceLegs(truth.robot, truth.camera_from_base, truth.robot.home);
-  const Points joints = BaseJoints(legs);
-  const double radius_m = LargestRadius(legs);
-  const Plate base =
-      PlateOver(joints, Centre(PlatformJoints(legs)), kPlateGapRadii * radius_m, kBaseThickness_m);
+SceneParts RoomParts(const SimulationTruth& truth, const SceneOptions& options) {
+  const Plate base = BasePlate(PlaceLegs(truth.robot, truth.camera_from_base, truth.robot.home));
+  const Eigen::Vector3d camera = Eigen::Vector3d::Zero();
+  const double depth_m = std::max(base.far_m, base.plane.Height(camera) + kGroundBelowCamera_m);
+  const double radius_m = std::max(kLeastRoomRadius_m, 1.5 * base.plane.centre.norm() + 1);
+  const Paint paint{options.ground_grey, true};
   SceneParts parts;
-  AddPlate(base, Outline(base.plane, joints, kBaseMargin_m), {options.plate_grey}, parts);
+  AddSquare(base.plane.Lifted(Eigen::Vector2d::Zero(), depth_m), radius_m * base.plane.along.col(0),
+            radius_m * base.plane.along.col(1), paint, parts);
+  parts.balls.push_back({base.plane.centre, radius_m, paint});
+  return parts;
+}
+
+SceneParts BaseParts(const SimulationTruth& truth, const SceneOptions& options) {
+  const LegsInCamera legs = PlaceLegs(truth.robot, truth.camera_from_base, truth.robot.home);
+  const Plate base = BasePlate(legs);
+  SceneParts parts;
+  AddPlate(base, Outline(base.plane, BaseJoints(legs), kBaseMargin_m), {options.plate_grey}, parts);
   for (const LegInCamera& leg : legs)
     AddJoint(leg.a_in_camera, leg.radius_m, base, {options.joint_grey}, parts);
-  AddRoom(base, {options.ground_grey, true}, parts);
   return parts;
 }
 

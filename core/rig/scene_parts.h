@@ -27,7 +27,6 @@ struct Ball {
   Eigen::Vector3d centre_in_camera;
   double radius_m = 0;
   Paint paint;
-  bool casts_shadow = true;
 };
 
 // Flat, of triangles.
@@ -42,13 +41,16 @@ struct SceneParts {
   std::vector<Face> faces;
 };
 
-// Ground, the dome of the room about it, base plate and the joints on it. The ground lies where the base
-// stands, or a little below the camera where that is lower.
-SceneParts FixedParts(const SimulationTruth& truth, const SceneOptions& options);
+// The ground and the dome of the room over it, which cast no shadow on the robot. The ground lies where the
+// base stands, or a little below the camera where that is lower.
+SceneParts RoomParts(const SimulationTruth& truth, const SceneOptions& options);
+
+// The base plate, on the far side of the base joints, and the joints on it.
+SceneParts BaseParts(const SimulationTruth& truth, const SceneOptions& options);
 
 // Legs, platform and its joints, and a board a little before each of the covered legs (0-based). What hides
-// the legs lies within what PredictEdges expects to: joints of less than 2 leg radii, the plate on the far
-// side of the platform joints and within their outline widened by less than the margin given to it there.
+// the legs lies within what PredictEdges expects to, for cameras up to 35 degrees above the base plane: balls
+// of 1.45 leg radii, and a thin plate on the far side of the platform joints that ends 3 mm beyond them.
 SceneParts MovingParts(const SimulationTruth& truth, const SceneOptions& options,
                        const Rigid3& base_from_platform, const std::vector<int>& covered_legs);
 

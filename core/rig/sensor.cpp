@@ -11,29 +11,49 @@ namespace {
 
 constexpr int kRowsPerTask = 16;
 
-// Weights from the middle outwards; all of them, both ways, sum to 1.
-std::vector<float> GaussianWeights(double sigma_px) {
-  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
-  std::vector<double> weights;
+// A Gaussian sampled at the pixels: weights from the middle outwards, of which all but the first count twice
+// and the sum is 1.
+std::vector<double> SampledGaussian(double width_px, int reach) {
+  std::vector<double> weights(static_cast<size_t>(reach) + 1);
   double sum = 0;
   for (int i = 0; i <= reach; ++i) {
-    weights.push_back(i == 0 ? 1 : std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
-    sum += i == 0 ? 1 : 2 * weights.back();
+    const double weight = std::exp(-0.5 * i * i / (width_px * width_px));
+    weights[static_cast<size_t>(i)] = weight;
+    sum += i == 0 ? weight : 2 * weight;
   }
-  std::vector<float> result;
-  for (const double weight : weights) result.push_back(static_cast<float>(weight / sum));
-  return result;
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+double Variance(const std::vector<double>& weights) {
+  double variance = 0;
+  for (size_t i = 1; i < weights.size(); ++i) variance += 2 * weights[i] * static_cast<double>(i * i);
+  return variance;
+}
+
+// Of the sampled Gaussians the one of standard deviation sigma_px > 0: narrow ones lose some by the sampling.
+std::vector<float> GaussianWeights(double sigma_px) {
+  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
+  double low_px = 0.9 * sigma_px, high_px = sigma_px + 0.5;
+  for (int i = 0; i < 40; ++i) {
+    const double middle_px = 0.5 * (low_px + high_px);
+    (Variance(SampledGaussian(middle_px, reach)) < sigma_px * sigma_px ? low_px : high_px) = middle_px;
+  }
+  const std::vector<double> weights = SampledGaussian(high_px, reach);
+  return {weights.begin(), weights.end()};
 }
 
 template <typename RowJob>
 void ForEachRow(int height, const RowJob& job) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) job(y);
-  });
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, kRowsPerTask),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      for (int y = rows.begin(); y < rows.end(); ++y) job(y);
+                    });
 }
 
 // One row from those about it.
-void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, int y, std::vector<float>& sum) {
+void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, int y,
+              std::vector<float>& sum) {
   const auto width = static_cast<size_t>(image.width);
   const float* const middle = image.Row(y);
   for (size_t x = 0; x < width; ++x) sum[x] = weights[0] * middle[x];
@@ -44,7 +64,8 @@ void BlurDown(const BrightnessImage& image, const std::vector<float>& weights, i
   }
 }
 
-void BlurAcross(const std::vector<float>& padded, const std::vector<float>& weights, int width, float* result) {
+void BlurAcross(const std::vector<float>& padded, const std::vector<float>& weights, int width,
+                float* result) {
   const float* const from = padded.data() + weights.size() - 1;
   for (int x = 0; x < width; ++x) result[x] = weights[0] * from[x];
   for (int i = 1; i < static_cast<int>(weights.size()); ++i) {

@@ -18,6 +18,9 @@ class SightLines {
   int height() const { return height_; }
   // Whether the lens shows anything there.
   bool HasImage(int x, int y) const { return has_image_[Index(x, y, width_)] != 0; }
+  // At the top-left corner of a pixel, or at the right or lower end of the last ones; not finite where the
+  // lens shows nothing.
+  const Eigen::Vector2d& AtCorner(int x, int y) const { return corners_[Index(x, y, width_ + 1)]; }
   // At a place within a pixel, (0, 0) its top-left corner, (1, 1) its bottom-right one.
   Eigen::Vector2d At(int x, int y, double right, double down) const {
     const size_t above = Index(x, y, width_ + 1), below = Index(x, y + 1, width_ + 1);

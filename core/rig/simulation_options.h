@@ -33,13 +33,13 @@ struct DriveOptions {
 struct SceneOptions {
   double blur_px = 0.8;   // standard deviation of the lens's Gaussian; the pixels' own extent is added
   double noise_grey = 2;  // standard deviation of a pixel, grey levels
-  double ambient = 0.25;  // share of the light that comes from everywhere
-  Eigen::Vector3d light_in_base{-0.3, 0.8, 1.5};  // towards the main light, far away; any length
-  double leg_grey = 190;                          // brightness where the light falls perpendicularly
-  double plate_grey = 70;
-  double joint_grey = 110;
-  double ground_grey = 60;
-  double texture_grey = 6;  // of the ground: standard deviation of smooth blotches
+  double ambient = 0.45;  // share of the light that comes from everywhere
+  Eigen::Vector3d light_in_base{0.45, 1.2, 1.0};  // towards the main light, far away; any length
+  double leg_grey = 230;                          // brightness where the light falls perpendicularly
+  double plate_grey = 34;
+  double joint_grey = 90;
+  double ground_grey = 48;
+  double texture_grey = 5;  // of the ground: standard deviation of smooth blotches
 };
 
 enum class FaultKind {
