@@ -32,9 +32,9 @@ Eigen::MatrixXd ImageInformation(const EstimationProblem& problem, const ImageOb
   return SharedInformation(alone);
 }
 
-// Cholesky's method that always takes the largest remaining pivot and ends at rounding (Higham, Analysis of the
-// Cholesky decomposition of a semi-definite matrix, 1990), with the diagonal scaled to ones before. Eigen's LDLT
-// chooses pivots without what earlier ones took away.
+// Cholesky's method that always takes the largest remaining pivot and ends at rounding (Higham, Analysis of
+// the Cholesky decomposition of a semi-definite matrix, 1990), with the diagonal scaled to ones before.
+// Eigen's LDLT chooses pivots without what earlier ones took away.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd inverse = scale.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });

@@ -36,7 +36,7 @@ std::vector<Rigid3> DrawReachablePoses(const GoughStewart& robot, int count, std
                                        const ReachOptions& options);
 
 struct PoseCandidateOptions {
-  int count = 1000;
+  int count = 500;
   std::uint64_t seed = 1;
   ReachOptions reach;
   ExpectedEdgeOptions edges;

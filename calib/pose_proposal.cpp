@@ -4,13 +4,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "calib/calibrated_model.h"
+#include "calib/image_choice.h"
 #include "calib/observability.h"
 #include "calib/problem_setup.h"
 #include "calib/shared_information.h"
@@ -52,16 +52,6 @@ void AddExpectedShading(double sigma_px, EstimationProblem& problem) {
     }
 }
 
-// C: the inverse of the information in the directions that can be known, with what is assumed besides.
-Eigen::MatrixXd RegularCovariance(const EstimationProblem& problem, const Eigen::MatrixXd& information) {
-  const Eigen::MatrixXd directions = AnalysedDirections(problem);
-  Eigen::MatrixXd relative = directions.transpose() * information * directions;
-  relative.diagonal().array() += 1 / (kAssumedSigma * kAssumedSigma);
-  // V (L L^T)^-1 V^T
-  const Eigen::MatrixXd root = relative.llt().matrixL().solve(directions.transpose());
-  return root.transpose() * root;
-}
-
 void DemandProposable(const LegCalibrationInput& input, const LegCalibrationOptions& estimation) {
   CheckInput(input, estimation);
   estimation.Check();
@@ -99,6 +89,8 @@ void PoseProposalOptions::Check() const {
   candidates.Check();
   if (lever_m && !(*lever_m >= 0)) throw std::invalid_argument("lever_m must not be negative");
   if (!(same_pose_m >= 0)) throw std::invalid_argument("same_pose_m must not be negative");
+  if (planned_images < 0 || plan_passes < 0)
+    throw std::invalid_argument("planned_images and plan_passes must not be negative");
   if (threads < 1) throw std::invalid_argument("PoseProposalOptions: threads must be at least 1");
 }
 
@@ -169,7 +161,10 @@ void PoseProposer::AddAt(const ImageObservation& image, const Rigid3& camera_fro
   CheckInput(one, estimation_);
   input_.images.push_back(image);
   camera_from_platform_.push_back(camera_from_platform);
-  if (!image.edges.empty()) seen_ += InformationOf(image, camera_from_platform);
+  if (!image.edges.empty()) {
+    seen_ += InformationOf(image, camera_from_platform);
+    ++images_with_edges_;
+  }
   if (image.joint_readings_m) Take(*image.joint_readings_m);
 }
 
@@ -216,16 +211,13 @@ ExpectedSigma PoseProposer::Expected() const {
 std::optional<PoseProposal> PoseProposer::Next() const {
   const EstimationProblem problem = WithoutUnits();
   const Eigen::MatrixXd information = seen_ + SharedInformation(problem);
-  const Eigen::MatrixXd covariance = RegularCovariance(problem, information);
-  const Eigen::MatrixXd q_covariance =
-      RootOf(forms_.position + lever_m_ * lever_m_ * forms_.rotation) * covariance;
-  std::vector<double> gains(roots_.size(), -1);
-  ForEach(roots_.size(), options_.threads, [&](size_t i) {
-    if (!taken_[i]) gains[i] = GainOf(roots_[i], covariance, q_covariance);
-  });
-  const auto best = std::max_element(gains.begin(), gains.end());
-  if (best == gains.end() || *best < 0) return std::nullopt;
-  const auto i = static_cast<size_t>(best - gains.begin());
+  const ImageChoice choice(AnalysedDirections(problem), kAssumedSigma,
+                           RootOf(forms_.position + lever_m_ * lever_m_ * forms_.rotation), roots_,
+                           options_.threads);
+  const int together = std::max(options_.planned_images - images_with_edges_, 1);
+  const std::vector<size_t> best = choice.BestTogether(information, taken_, together, options_.plan_passes);
+  if (best.empty()) return std::nullopt;
+  const size_t i = best.front();
   const PoseCandidate& candidate = candidates_.poses[i];
   return PoseProposal{candidate.base_from_platform, *candidate.expected.joint_readings_m,
                       static_cast<int>(candidate.expected.edges.size()),

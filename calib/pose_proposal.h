@@ -22,6 +22,10 @@ struct PoseProposalOptions {
   EdgeNoise noise;
   // An image in which no reading differs by more from a candidate's has taken that candidate.
   double same_pose_m = 0.002;
+  // The first images are chosen together, for only together do they determine the parameters: one that gains
+  // most by itself is often none of the best few. Fewer images than this determine hardly anything.
+  int planned_images = 6;
+  int plan_passes = 2;  // of exchange within the plan
   int threads = 2;
 
   void Check() const;  // throws std::invalid_argument
@@ -45,7 +49,8 @@ struct PoseProposal {
 };
 
 // Proposes poses one by one for a session. The information that each candidate's image would add does not
-// depend on other images and is computed once; a proposal takes the candidate that lowers most
+// depend on other images and is computed once; a proposal takes the candidate that lowers most, in the
+// beginning together with those that will follow,
 //   trace(M C),  M = mean over the poses cared for of P^T diag(1, 1, 1, lever^2, lever^2, lever^2) P,
 // with C the covariance of the parameters and P the derivative of the predicted pose by them: the mean
 // squared error of predicted poses (A-optimal in these). C holds what the estimator knows: the images so far
@@ -100,6 +105,7 @@ class PoseProposer {
   PoseErrorForms forms_;
   double lever_m_ = 0;
   Eigen::MatrixXd seen_;  // information of all images
+  int images_with_edges_ = 0;
 };
 
 }  // namespace legible
