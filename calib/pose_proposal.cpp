@@ -159,11 +159,17 @@ void PoseProposer::AddAt(const ImageObservation& image, const Rigid3& camera_fro
   one.start.reset();
   one.images = {image};
   CheckInput(one, estimation_);
-  input_.images.push_back(image);
+  input_.images.push_back(image);  // before its information: its edges may be the first that are shaded
   camera_from_platform_.push_back(camera_from_platform);
-  if (!image.edges.empty()) {
-    seen_ += InformationOf(image, camera_from_platform);
-    ++images_with_edges_;
+  try {
+    if (!image.edges.empty()) {
+      seen_ += InformationOf(image, camera_from_platform);
+      ++images_with_edges_;
+    }
+  } catch (...) {
+    input_.images.pop_back();
+    camera_from_platform_.pop_back();
+    throw;
   }
   if (image.joint_readings_m) Take(*image.joint_readings_m);
 }

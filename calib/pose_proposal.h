@@ -75,7 +75,7 @@ class PoseProposer {
 
   // An image as it was measured, in whatever pose. Throws std::invalid_argument where it has no joint
   // readings or these lead to no pose from home, std::runtime_error where the model cannot produce the edges
-  // at all.
+  // at all; either leaves the proposer as it was.
   void Add(const ImageObservation& image);
 
   // The candidate there will not be proposed (again): the rig could not go there, or saw nothing.

@@ -222,6 +222,16 @@ TEST(PoseProposer, CountsAPoseWithoutEdgesAsTaken) {
   EXPECT_NE(proposer.Next()->base_from_platform.translation, first.translation);
 }
 
+TEST(PoseProposer, IsAsItWasAfterAnImageThatTheModelCannotProduce) {
+  const RigModel rig = DesktopRig();
+  PoseProposer proposer(InputOf(rig), {}, Few(4));
+  const Rigid3 first = proposer.Next()->base_from_platform;
+  ImageObservation image = ExpectObservation(rig, first, {});
+  image.edges[0].samples[0].point_px = {1e7, -1e7};
+  EXPECT_THROW(proposer.Add(image), std::runtime_error);
+  EXPECT_EQ(proposer.Next()->base_from_platform.translation, first.translation);
+}
+
 TEST(PoseProposer, NeedsReadingsThatLeadToAPose) {
   PoseProposer proposer(InputOf(DesktopRig()), {}, Few(1));
   EXPECT_THROW(proposer.Add({"none", std::nullopt, {}}), std::invalid_argument);
