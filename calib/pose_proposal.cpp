@@ -192,6 +192,7 @@ ExpectedSigma PoseProposer::SigmaOf(const EstimationProblem& problem,
   sigma.focal_length_px = RmsOfTwo(found, 0);
   sigma.principal_point_px = RmsOfTwo(found, 2);
   ModelCovariance model{{}, by_shared_ * found.covariance * by_shared_.transpose(), {}};
+  model.known.reserve(static_cast<size_t>(by_shared_.rows()));
   for (Eigen::Index row = 0; row < by_shared_.rows(); ++row) {
     bool known = true;
     for (Eigen::Index i = 0; i < kSharedParameterCount; ++i)

@@ -62,6 +62,7 @@ class ImageChoices : public testing::Test {
       for (double& entry : matrix.reshaped()) entry = Uniform(generator, -1, 1);
       return matrix;
     };
+    roots_.reserve(15);
     for (int i = 0; i < 15; ++i) roots_.push_back(draw(3));
     q_ = draw(4);
     information_ = draw(2).transpose() * draw(2);

@@ -80,6 +80,7 @@ Course RandomCourse(const RandomRig& rig, std::uint64_t seed) {
 class Comparison {
  public:
   explicit Comparison(const RandomRig& rig) {
+    random_.reserve(kRandomSessions);
     for (std::uint64_t i = 0; i < kRandomSessions; ++i) random_.push_back(RandomCourse(rig, kRandomSeed + i));
     Propose(rig);
   }
@@ -88,6 +89,7 @@ class Comparison {
   template <typename F>
   double Share(int images, const F& sigma_of) const {
     std::vector<double> sigmas;
+    sigmas.reserve(random_.size());
     for (const Course& course : random_) sigmas.push_back(sigma_of(course.at(images - 1)));
     const double sigma = MedianOf(sigmas);
     const auto reached = std::find_if(proposed_.begin(), proposed_.end(),
@@ -129,7 +131,7 @@ struct Spread {
   explicit Spread(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const auto at = [&](double share) {
-      return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+      return values[static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
     };
     low = at(0.1);
     median = at(0.5);
@@ -144,12 +146,14 @@ std::string Text(const Spread& spread) {
 TEST(PoseProposal, NeedsAtMostSixtyPercentOfTheImagesThatRandomPosesNeed) {
   std::mt19937_64 generator = TestGenerator();
   std::vector<Comparison> rigs;
+  rigs.reserve(kRigs);
   for (int i = 0; i < kRigs; ++i) rigs.emplace_back(DrawRig(generator));
   const auto pose = [](const Sigmas& sigmas) { return sigmas.Pose_m(); };
   const auto position = [](const Sigmas& sigmas) { return sigmas.position_m; };
   const auto rotation = [](const Sigmas& sigmas) { return sigmas.rotation_rad; };
   const auto shares = [&](int images, const auto& sigma_of) {
     std::vector<double> of_rigs;
+    of_rigs.reserve(rigs.size());
     for (const Comparison& rig : rigs) of_rigs.push_back(rig.Share(images, sigma_of));
     return of_rigs;
   };
@@ -163,6 +167,7 @@ TEST(PoseProposal, NeedsAtMostSixtyPercentOfTheImagesThatRandomPosesNeed) {
                              Text(Spread(shares(images, position))), Text(Spread(shares(images, rotation))));
   }
   std::vector<double> set_up_s, slowest_s, foretold;
+  for (std::vector<double>* values : {&set_up_s, &slowest_s, &foretold}) values->reserve(rigs.size());
   for (const Comparison& rig : rigs) {
     set_up_s.push_back(rig.set_up_s());
     slowest_s.push_back(rig.slowest_s());

@@ -99,6 +99,7 @@ TEST(PoseError, IsNoneWhereTheBaseMovesAsAWhole) {
 std::pair<double, double> PoseSigmas(const LegCalibration& calibration, const std::vector<Rigid3>& poses) {
   const ModelCovariance model = CovarianceOfModel(calibration);
   std::vector<Eigen::Index> rows;
+  rows.reserve(kGeometryCount);
   for (const std::string& name : GeometryNames())
     rows.push_back(std::find(model.names.begin(), model.names.end(), name) - model.names.begin());
   const Eigen::MatrixXd covariance = model.covariance(rows, rows);
@@ -200,6 +201,7 @@ TEST(PoseProposer, ResumesWithTheImagesThatThereAre) {
   const RandomRig rig = DrawRig(generator);
   PoseProposer proposer(InputOf(rig.guess), {}, Few(30));
   std::vector<ImageObservation> images;
+  images.reserve(4);
   for (int i = 0; i < 4; ++i) {
     images.push_back(SeenIn(rig, proposer.Next().value().base_from_platform, {}));
     proposer.Add(images.back());
