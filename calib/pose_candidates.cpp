@@ -52,7 +52,8 @@ double Distance(const Segment& first, const Segment& second) {
                    second.DistanceTo(first.b)});
 }
 
-// Joints of two legs may be so close (or one) that their legs never are that far apart: as far as at home, then.
+// Joints of two legs may be so close (or one) that their legs never are that far apart: as far as at home,
+// then.
 bool LegsKeepClear(const GoughStewart& robot, const Rigid3& base_from_platform, double clearance_m) {
   const auto axis = [&](size_t i, const Rigid3& pose) -> Segment {
     return {robot.legs[i].base_joint_m, pose * robot.legs[i].platform_joint_m};
@@ -60,8 +61,8 @@ bool LegsKeepClear(const GoughStewart& robot, const Rigid3& base_from_platform, 
   for (size_t i = 0; i < kLegCount; ++i)
     for (size_t j = i + 1; j < kLegCount; ++j) {
       const double at_home_m = Distance(axis(i, robot.home), axis(j, robot.home));
-      const double least_m = std::min(robot.legs[i].radius_m + robot.legs[j].radius_m + clearance_m,
-                                      kAsFarAsAtHome * at_home_m);
+      const double least_m =
+          std::min(robot.legs[i].radius_m + robot.legs[j].radius_m + clearance_m, kAsFarAsAtHome * at_home_m);
       if (Distance(axis(i, base_from_platform), axis(j, base_from_platform)) < least_m) return false;
     }
   return true;
