@@ -8,7 +8,6 @@
 namespace legible {
 namespace {
 
-constexpr int kModelLegParameters = 8;  // A (3), B (3), R, joint offset
 constexpr int kPlacement = kCameraParameterCount + kLegCount * kModelLegParameters;  // of the base: 6
 constexpr int kModelParameters = kPlacement + 6;
 
@@ -26,25 +25,6 @@ std::vector<std::string> ModelNames() {
   return names;
 }
 
-// Linear map from the shared parameters to the model's: A is taken to the base frame, which follows A.
-Eigen::MatrixXd FromSharedParameters(const LegCalibration& calibration) {
-  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kModelParameters, kSharedParameterCount);
-  map.topLeftCorner<kCameraParameterCount, kCameraParameterCount>().setIdentity();
-  const BaseFrame base = FitBaseFrame(calibration.base_joints_in_camera_m, calibration.drawn_base_joints_m);
-  const JointsInBase joints = TakeToBase(base, calibration.base_joints_in_camera_m);
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    const int row = kCameraParameterCount + leg * kModelLegParameters;
-    const int shared = FirstParameterOfLeg(leg);
-    map.block<5, 5>(row + 3, shared + leg_parameter::kPlatformJoint).setIdentity();
-    const int base_joint = shared + leg_parameter::kBaseJoint;
-    for (int other = 0; other < kLegCount && !calibration.base_joints_held; ++other)
-      map.block<3, 3>(kCameraParameterCount + other * kModelLegParameters, base_joint) =
-          joints.d_joints.block<3, 3>(3 * other, 3 * leg);
-    map.block<6, 3>(kPlacement, base_joint) = base.d_joints.middleCols<3>(3 * leg);
-  }
-  return map;
-}
-
 double SigmaOf(const Eigen::MatrixXd& covariance, const std::vector<bool>& known, int index) {
   const double variance = covariance(index, index);
   return known[static_cast<size_t>(index)] ? std::sqrt(std::max(variance, 0.0))
@@ -53,8 +33,28 @@ double SigmaOf(const Eigen::MatrixXd& covariance, const std::vector<bool>& known
 
 }  // namespace
 
+Eigen::MatrixXd ModelBySharedParameters(const LegPoints& base_joints_in_camera_m,
+                                        const LegPoints& drawn_base_joints_m, bool base_joints_held) {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kModelParameters, kSharedParameterCount);
+  map.topLeftCorner<kCameraParameterCount, kCameraParameterCount>().setIdentity();
+  const BaseFrame base = FitBaseFrame(base_joints_in_camera_m, drawn_base_joints_m);
+  const JointsInBase joints = TakeToBase(base, base_joints_in_camera_m);
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const int row = kCameraParameterCount + leg * kModelLegParameters;
+    const int shared = FirstParameterOfLeg(leg);
+    map.block<5, 5>(row + 3, shared + leg_parameter::kPlatformJoint).setIdentity();
+    const int base_joint = shared + leg_parameter::kBaseJoint;
+    for (int other = 0; other < kLegCount && !base_joints_held; ++other)
+      map.block<3, 3>(kCameraParameterCount + other * kModelLegParameters, base_joint) =
+          joints.d_joints.block<3, 3>(3 * other, 3 * leg);
+    map.block<6, 3>(kPlacement, base_joint) = base.d_joints.middleCols<3>(3 * leg);
+  }
+  return map;
+}
+
 ModelCovariance CovarianceOfModel(const LegCalibration& calibration) {
-  const Eigen::MatrixXd map = FromSharedParameters(calibration);
+  const Eigen::MatrixXd map = ModelBySharedParameters(
+      calibration.base_joints_in_camera_m, calibration.drawn_base_joints_m, calibration.base_joints_held);
   ModelCovariance model{ModelNames(), map * calibration.observability.covariance * map.transpose(), {}};
   for (int row = 0; row < kModelParameters; ++row) {
     bool known = true;

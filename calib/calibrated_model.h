@@ -8,6 +8,13 @@
 
 namespace legible {
 
+inline constexpr int kModelLegParameters = 8;  // A (3), B (3), R, joint offset
+
+// Linear map from the shared parameters of the estimation to those of ModelCovariance: A is taken to the base
+// frame, which follows A; base joints that are held among themselves have zero rows.
+Eigen::MatrixXd ModelBySharedParameters(const LegPoints& base_joints_in_camera_m,
+                                        const LegPoints& drawn_base_joints_m, bool base_joints_held);
+
 // Covariance of the parameters that a model is used with: the camera's, then for each leg A in base, B in
 // platform, R and joint offset, in the gauges of LegCalibration, then the placement of the base (displacement
 // in camera); parameters that were held have zero rows.

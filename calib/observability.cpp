@@ -201,11 +201,20 @@ Observability WhereAllIsHeld() {
 
 }  // namespace
 
+Eigen::MatrixXd AnalysedDirections(const EstimationProblem& problem) {
+  const Eigen::VectorXd sizes = NaturalSizes(problem);
+  return sizes.asDiagonal() * FreeDirections(problem, sizes);
+}
+
 Observability AnalyseObservability(const EstimationProblem& problem) {
+  return AnalyseObservability(problem, SharedInformation(problem));
+}
+
+Observability AnalyseObservability(const EstimationProblem& problem, const Eigen::MatrixXd& information) {
   const Eigen::VectorXd sizes = NaturalSizes(problem);
   const Eigen::MatrixXd directions = FreeDirections(problem, sizes);
   if (directions.cols() == 0) return WhereAllIsHeld();
-  const Eigen::MatrixXd relative = sizes.asDiagonal() * SharedInformation(problem) * sizes.asDiagonal();
+  const Eigen::MatrixXd relative = sizes.asDiagonal() * information * sizes.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(directions.transpose() * relative * directions);
   const Eigen::VectorXd& values = eigen.eigenvalues();  // ascending
   const Eigen::MatrixXd vectors = directions * eigen.eigenvectors();

@@ -32,4 +32,13 @@ struct Observability {
 // parameters that are not `known` must not be reported.
 Observability AnalyseObservability(const EstimationProblem& problem);
 
+// The same of information (as SharedInformation's) that was added up elsewhere: of the problem's units only
+// whether there are rigid ones counts.
+Observability AnalyseObservability(const EstimationProblem& problem, const Eigen::MatrixXd& information);
+
+// Columns (kSharedParameterCount rows, SI units and px) that span what the analysis is about: the free
+// parameters without the platform gauge, orthonormal in natural units. A combination z of them is a relative
+// change.
+Eigen::MatrixXd AnalysedDirections(const EstimationProblem& problem);
+
 }  // namespace legible
