@@ -19,7 +19,6 @@ ordered_json ToJson(const Eigen::Matrix<double, N, 1>& value) {
   return List(value);
 }
 ordered_json ToJson(const std::array<double, 2>& value) { return value; }
-ordered_json ToJson(const std::string& value) { return value; }
 ordered_json ToJson(const Eigen::Matrix3d& value) {
   return std::vector<double>(value.data(), value.data() + value.size());  // by columns
 }
@@ -29,7 +28,6 @@ ordered_json ToJson(const Rigid3& value) {
 
 void FromJson(const ordered_json& json, double& value) { value = json.get<double>(); }
 void FromJson(const ordered_json& json, bool& value) { value = json.get<bool>(); }
-void FromJson(const ordered_json& json, std::string& value) { value = json.get<std::string>(); }
 void FromJson(const ordered_json& json, std::array<double, 2>& value) {
   value = json.get<std::array<double, 2>>();
 }

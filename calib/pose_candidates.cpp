@@ -15,12 +15,6 @@ constexpr int kMostDrawsAPose = 200;  // of readings, before the search for a ca
 constexpr double kAsFarAsAtHome = 0.99;
 constexpr double kSamePose_m = 1e-6;  // poses found on two ways; other assemblies are centimetres off
 
-double PlatformRadius(const GoughStewart& robot) {
-  double squares = 0;
-  for (const Leg& leg : robot.legs) squares += leg.platform_joint_m.squaredNorm();
-  return std::sqrt(squares / kLegCount);
-}
-
 double LeastSingularValue(const GoughStewart& robot, const Rigid3& base_from_platform) {
   Matrix6d jacobian = InverseJacobian(robot, base_from_platform);
   jacobian.rightCols<3>() /= PlatformRadius(robot);

@@ -29,12 +29,6 @@ void ForEach(size_t count, int threads, const F& work) {
   arena.execute([&] { tbb::parallel_for(size_t{0}, count, work); });
 }
 
-double PlatformRadius(const GoughStewart& robot) {
-  double squares = 0;
-  for (const Leg& leg : robot.legs) squares += leg.platform_joint_m.squaredNorm();
-  return std::sqrt(squares / kLegCount);
-}
-
 RigModel ModelOf(const LegCalibrationInput& input) {
   if (!input.start) return {input.drawing, input.camera, input.camera_from_base};
   return {input.start->robot, input.start->camera, input.start->camera_from_base};

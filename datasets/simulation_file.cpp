@@ -50,13 +50,13 @@ DriveOptions DrivesFromYaml(const YamlValue& section) {
 
 SceneOptions SceneFromYaml(const YamlValue& section) {
   std::vector<std::string> keys = NamesOf(kSceneFields);
-  keys.emplace_back("light_in_base");
+  keys.emplace_back("light_in_camera");
   section.AllowKeys(keys);
   SceneOptions scene;
   ReadNumbers(section, kSceneFields, scene);
-  if (const auto light = section.Find("light_in_base")) {
-    scene.light_in_base = light->Vector3();
-    if (!(scene.light_in_base.norm() > 0))
+  if (const auto light = section.Find("light_in_camera")) {
+    scene.light_in_camera = light->Vector3();
+    if (!(scene.light_in_camera.norm() > 0))
       light->Fail("has no direction", "give a vector that points to the light");
   }
   return scene;
@@ -190,7 +190,7 @@ std::string OptionsToYaml(const SimulationOptions& options) {
   if (options.start) text += fmt::format("start: {}\n", RigidText(*options.start));
   text += "drives:\n" + Indented(NumbersToYaml(options.drives, kDriveFields));
   text += "scene:\n" + Indented(NumbersToYaml(options.scene, kSceneFields) +
-                                fmt::format("light_in_base: {}\n", ListText(options.scene.light_in_base)));
+                                fmt::format("light_in_camera: {}\n", ListText(options.scene.light_in_camera)));
   if (options.faults.empty()) return text;
   text += "faults:\n";
   for (const Fault& fault : options.faults) text += Indented(FaultToYaml(fault));

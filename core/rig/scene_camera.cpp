@@ -20,14 +20,14 @@ const SimulationTruth& Checked(const SimulationTruth& truth, const SceneOptions&
   Demand(options.blur_px >= 0, "blur_px must be 0 or more");
   Demand(options.noise_grey >= 0, "noise_grey must be 0 or more");
   Demand(options.ambient >= 0 && options.ambient <= 1, "ambient must be 0 to 1");
-  Demand(options.light_in_base.allFinite() && options.light_in_base.norm() > 0,
-         "light_in_base must be a direction");
+  Demand(options.light_in_camera.allFinite() && options.light_in_camera.norm() > 0,
+         "light_in_camera must be a direction");
   Demand(options.texture_grey >= 0, "texture_grey must be 0 or more");
   return truth;
 }
 
-SceneLight LightOf(const SimulationTruth& truth, const SceneOptions& options) {
-  const Eigen::Vector3d towards = truth.camera_from_base.rotation * options.light_in_base.normalized();
+SceneLight LightOf(const SceneOptions& options) {
+  const Eigen::Vector3d towards = options.light_in_camera.normalized();
   return {towards.cast<float>(), static_cast<float>(options.ambient)};
 }
 
@@ -38,7 +38,7 @@ class SceneCamera::Scene {
   Scene(const SimulationTruth& truth, const SceneOptions& options, std::uint64_t seed)
       : truth_(Checked(truth, options)),
         options_(options),
-        renderer_(truth.camera, RoomParts(truth, options), BaseParts(truth, options), LightOf(truth, options),
+        renderer_(truth.camera, RoomParts(truth, options), BaseParts(truth, options), LightOf(options),
                   options.ground_grey, Blotches(options.texture_grey, Scrambled(seed))),
         noise_(options.noise_grey, seed) {}
 

@@ -36,8 +36,8 @@ void SimulationOptions::Check() const {
   Demand(drives.sliding_loss_m_per_s <= drives.breakaway_speed_m_per_s,
          "drives.sliding_loss_m_per_s must not exceed drives.breakaway_speed_m_per_s");
   CheckNumbers(scene, kSceneFields, "scene.");
-  Demand(scene.light_in_base.allFinite() && scene.light_in_base.norm() > 0,
-         "scene.light_in_base must be finite and not 0");
+  Demand(scene.light_in_camera.allFinite() && scene.light_in_camera.norm() > 0,
+         "scene.light_in_camera must be finite and not 0");
   for (size_t i = 0; i < faults.size(); ++i) CheckFault(faults[i], "faults[" + std::to_string(i + 1) + "].");
   if (!start) return;
   Demand(start->translation.allFinite(), "start.translation must be finite");

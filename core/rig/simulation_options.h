@@ -34,7 +34,8 @@ struct SceneOptions {
   double blur_px = 0.8;   // standard deviation of the lens's Gaussian; the pixels' own extent is added
   double noise_grey = 2;  // standard deviation of a pixel, grey levels
   double ambient = 0.45;  // share of the light that comes from everywhere
-  Eigen::Vector3d light_in_base{0.45, 1.2, 1.0};  // towards the main light, far away; any length
+  // Towards the main light, far away; any length: from the camera's right and from above.
+  Eigen::Vector3d light_in_camera{1.16, -0.90, -0.70};
   double leg_grey = 230;                          // brightness where the light falls perpendicularly
   double plate_grey = 34;
   double joint_grey = 90;

@@ -48,7 +48,7 @@ SimulationOptions SomeOptions(std::mt19937_64& generator) {
   DrawNumbers(generator, kDriveFields, options.drives);
   options.drives.sliding_loss_m_per_s = options.drives.breakaway_speed_m_per_s / 3;
   DrawNumbers(generator, kSceneFields, options.scene);
-  options.scene.light_in_base = UniformVector(generator, -1, 1);
+  options.scene.light_in_camera = UniformVector(generator, -1, 1);
   options.seed = generator();
   options.start = DesktopHexapod().home;
   options.start->translation += UniformVector(generator, -0.01, 0.01);
@@ -66,7 +66,7 @@ void ExpectSame(const SimulationOptions& found, const SimulationOptions& expecte
   ExpectSameNumbers(found, expected, kSimulationFields);
   ExpectSameNumbers(found.drives, expected.drives, kDriveFields);
   ExpectSameNumbers(found.scene, expected.scene, kSceneFields);
-  EXPECT_EQ(found.scene.light_in_base, expected.scene.light_in_base);
+  EXPECT_EQ(found.scene.light_in_camera, expected.scene.light_in_camera);
   EXPECT_EQ(found.seed, expected.seed);
   ASSERT_EQ(found.start.has_value(), expected.start.has_value());
   if (expected.start) ExpectSame(*found.start, *expected.start);
@@ -160,8 +160,8 @@ TEST(SimulationFile, ValuesOutOfTheirRangeAreRefused) {
         "drives.sliding_loss_m_per_s is 0.01, and breakaway_speed_m_per_s is 0; "
         "give a breakaway speed that is not less than what sliding loses");
   check("scene: {leg_grey: 256}", "scene.leg_grey is 256; give a number from 0 to 255");
-  check("scene: {light_in_base: [0, 0, 0]}",
-        "scene.light_in_base has no direction; give a vector that points to the light");
+  check("scene: {light_in_camera: [0, 0, 0]}",
+        "scene.light_in_camera has no direction; give a vector that points to the light");
   check("edge_noise_px: .nan",
         "edge_noise_px is \".nan\", not a finite number; give a number in m, rad or px");
   check("faults: [{kind: frame-dropped}]",

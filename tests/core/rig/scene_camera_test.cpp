@@ -90,8 +90,9 @@ TEST(SceneCamera, LegsAreAsBrightAsLambertSays) {
   SceneOptions options;
   options.blur_px = 0;
   const Eigen::Vector3d camera_in_base = Inverse(truth.camera_from_base).translation;
-  options.light_in_base = camera_in_base + Eigen::Vector3d(0, 0.1, 0.1);  // what is seen is hardly in shadow
-  const Eigen::Vector3d towards_light = truth.camera_from_base.rotation * options.light_in_base.normalized();
+  // What is seen is hardly in shadow.
+  options.light_in_camera = truth.camera_from_base.rotation * (camera_in_base + Eigen::Vector3d(0, 0.1, 0.1));
+  const Eigen::Vector3d towards_light = options.light_in_camera.normalized();
   const BrightnessImage image = SceneCamera(truth, options, 1).TakeNoiseless(truth.robot.home, {});
   const LegsInCamera legs = LegsOf(truth, truth.robot.home);
   for (const size_t front : {0, 1})  // nothing stands before them
@@ -112,12 +113,13 @@ TEST(SceneCamera, ThePlatformCastsItsShadowOnTheGround) {
   options.texture_grey = 0;
   // The base plate's lower side, on which the robot stands: 8 mm and 20 mm below the joints.
   const Eigen::Vector3d in_shadow(0.15, 0.42, -0.028), in_light(0.35, 0.35, -0.028);
-  options.light_in_base = truth.robot.home.translation - in_shadow;
+  const Eigen::Vector3d light_in_base = truth.robot.home.translation - in_shadow;
+  options.light_in_camera = truth.camera_from_base.rotation * light_in_base;
   const BrightnessImage image = SceneCamera(truth, options, 1).TakeNoiseless(truth.robot.home, {});
   const auto grey_of = [&](const Eigen::Vector3d& x) {
     return GreyAt(image, Project(truth.camera, truth.camera_from_base * x));
   };
-  const double cosine = options.light_in_base.normalized().z();
+  const double cosine = light_in_base.normalized().z();
   EXPECT_NEAR(grey_of(in_shadow), options.ground_grey * options.ambient, 0.1);
   EXPECT_NEAR(grey_of(in_light), options.ground_grey * (options.ambient + (1 - options.ambient) * cosine),
               0.1);
@@ -144,7 +146,7 @@ TEST(SceneCamera, RefusesWhatCannotBe) {
   EXPECT_THROW(make([](SceneOptions& o) { o.blur_px = -1; }), std::invalid_argument);
   EXPECT_THROW(make([](SceneOptions& o) { o.noise_grey = -1; }), std::invalid_argument);
   EXPECT_THROW(make([](SceneOptions& o) { o.ambient = 1.1; }), std::invalid_argument);
-  EXPECT_THROW(make([](SceneOptions& o) { o.light_in_base.setZero(); }), std::invalid_argument);
+  EXPECT_THROW(make([](SceneOptions& o) { o.light_in_camera.setZero(); }), std::invalid_argument);
   const SceneCamera camera(truth, {}, 1);
   EXPECT_THROW(camera.TakeNoiseless(truth.robot.home, {6}), std::invalid_argument);
 }

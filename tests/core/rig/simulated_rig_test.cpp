@@ -283,8 +283,8 @@ TEST(SimulationOptions, AreCheckedByField) {
             "SimulationOptions: drives.sliding_loss_m_per_s must not exceed drives.breakaway_speed_m_per_s");
   EXPECT_EQ(complaint([](SimulationOptions& o) { o.scene.ambient = 1.5; }),
             "SimulationOptions: scene.ambient is 1.5; give 0 to 1");
-  EXPECT_EQ(complaint([](SimulationOptions& o) { o.scene.light_in_base.setZero(); }),
-            "SimulationOptions: scene.light_in_base must be finite and not 0");
+  EXPECT_EQ(complaint([](SimulationOptions& o) { o.scene.light_in_camera.setZero(); }),
+            "SimulationOptions: scene.light_in_camera must be finite and not 0");
   EXPECT_EQ(complaint([](SimulationOptions& o) {
               o.faults = {{}, {FaultKind::kLegCovered, 1, 1}};
             }),
