@@ -129,8 +129,8 @@ void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
       command, "--tolerance", "ERROR",
       [&supervision](const std::string& text) { supervision.tolerance = ParsePositive(text); },
       "Converged when the error of the mode stays below: px of\nedges, rad of directions, m of poses and "
-      "joints;\nwithout it 0.25 px, 2e-3 rad, 1e-4 m, 5e-5 m, and more\nwhere the noise of the edges is "
-      "larger");
+      "joints;\nwithout it 0.1 px, 2e-3 rad, 1e-4 m, 5e-5 m, or where it\nno longer falls and is what noise "
+      "leaves");
 }
 
 void AddRigOptions(CLI::App& command, ServoSettings& settings) {

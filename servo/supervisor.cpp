@@ -105,7 +105,7 @@ const char* ToString(ServoEnd end) {
 double DefaultTolerance(ControlMode mode) {
   switch (mode) {
     case ControlMode::kEdges:
-      return 0.25;
+      return 0.1;
     case ControlMode::kDirections:
       return 2e-3;
     case ControlMode::kPose:
@@ -170,7 +170,7 @@ Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
     verdict = Ended(ServoEnd::kTimeout, fmt::format("not converged within {:.1f} s: {} left",
                                                     options_.timeout_s, ErrorText(step.law.error)));
   if (verdict) last_ = *verdict;
-  last_.tolerance = ToleranceFor(step);
+  last_.tolerance = options_.tolerance;
   return last_;
 }
 
@@ -245,7 +245,7 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
   if (last_.is_waiting) return std::nullopt;
   if (HasArrived(input, step))
     return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
-                                                   ErrorText(step.law.error), ErrorText(ToleranceFor(step))));
+                                                   ErrorText(step.law.error), ErrorText(options_.tolerance)));
   if (Grows(input, step.law.error))
     return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
                                                     ErrorText(step.law.error), ErrorText(smallest_error_)));
@@ -253,7 +253,7 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
 }
 
 bool Supervisor::HasArrived(const CycleInput& input, const ServoStep& step) {
-  if (!(step.law.error <= ToleranceFor(step))) {
+  if (!(step.law.error <= options_.tolerance)) {
     within_since_s_.reset();
     return false;
   }
@@ -285,7 +285,12 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
     sums[moment.time_s >= middle_s] += moment.error;
     ++counts[moment.time_s >= middle_s];
   }
-  const bool falls = sums[1] / counts[1] < (1 - options_.stall_share) * sums[0] / counts[0];
+  const double mean = sums[1] / counts[1];
+  const bool falls = mean < (1 - options_.stall_share) * sums[0] / counts[0];
+  if (!falls && mean <= options_.tolerance_in_noise * step.law.error_noise)
+    return Ended(ServoEnd::kConverged,
+                 fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
+                             ErrorText(mean), ErrorText(step.law.error_noise)));
   if (!falls) return WhyStalled(step);
   recent_.pop_front();
   return std::nullopt;
@@ -315,17 +320,13 @@ Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   return Ended(
       ServoEnd::kStalled,
       fmt::format("{} and nothing holds the robot: a local minimum, or noise above the tolerance of {}",
-                  error, ErrorText(ToleranceFor(step))));
+                  error, ErrorText(options_.tolerance)));
 }
 
 std::string Supervisor::ErrorText(double error) const {
   if (law_.mode == ControlMode::kEdges) return fmt::format("{:.2f} px", error);
   if (law_.mode == ControlMode::kDirections) return fmt::format("{:.2f} mrad", 1e3 * error);
   return fmt::format("{:.3f} mm", 1e3 * error);
-}
-
-double Supervisor::ToleranceFor(const ServoStep& step) const {
-  return std::max(options_.tolerance, options_.tolerance_in_noise * step.law.error_noise);
 }
 
 }  // namespace legible
