@@ -55,7 +55,7 @@ enum class LawStatus {
   kBadReadings,          // not numbers
   kNoPose,               // the readings belong to no pose near the last one
   kRobotSingular,        // closer to a singularity than least_robot_conditioning
-  kTooFewEdges,          // of legs that the goal has too
+  kTooFewEdges,          // fewer than six, or of fewer than three legs, that the goal has too
   kIllConditionedEdges,  // less than least_conditioning
   kNoPoseFromEdges,
 };
