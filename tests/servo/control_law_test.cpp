@@ -100,7 +100,8 @@ ServoStepOptions Unlimited(const ControlLawOptions& law, double gain_per_s) {
   ServoStepOptions options;
   options.law = law;
   options.gain = AdaptiveGain::Constant(gain_per_s);
-  options.limits.speed_limit_m_per_s = 100;
+  options.limits.speed_limit_m_per_s = 1e6;
+  options.limits.look_ahead_s = 1e-9;
   options.slow_conditioning = 1 + 1e-9;
   return options;
 }
