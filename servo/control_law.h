@@ -95,7 +95,7 @@ const char* UnitOf(ControlMode mode);
 // Throws std::invalid_argument, in words for the user, where the goal does not say what the mode needs.
 void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options);
 
-// Depends on nothing but what it is given. Allocates nothing.
+// Depends on nothing but what it is given. Allocates nothing, unless it fits a pose to edges.
 LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
                       const ControlLawOptions& options);
 
