@@ -104,6 +104,7 @@ BenchTable::Row VispLawRow(const std::string& label, const std::vector<Recorded>
 BenchTable FeaturesToCommand() {
   std::mt19937_64 generator(1);
   std::vector<Recorded> runs;
+  runs.reserve(kRuns);
   for (int run = 0; run < kRuns; ++run) runs.push_back(RecordRun(generator));
   const auto law = [](ControlMode mode, bool is_weighted) {
     ControlLawOptions options;

@@ -108,6 +108,7 @@ ServoStepOptions Unlimited(const ControlLawOptions& law, double gain_per_s) {
 
 TEST(EdgeLaw, GivesTheJointSpeedsOfThePapersEquationsWrittenOut) {
   std::mt19937_64 generator = TestGenerator();
+  int counted = 0;
   for (int n = 0; n < 60; ++n) {
     const Task task = RandomTask(generator, 0.03);
     SeenEdges seen = EdgesAt(task.scene.model, task.scene.pose);
@@ -117,13 +118,16 @@ TEST(EdgeLaw, GivesTheJointSpeedsOfThePapersEquationsWrittenOut) {
     seen = Only(seen, [&](int leg, int) { return leg != hidden && (n % 4 != 2 || leg != (hidden + 2) % 6); });
     const ServoStep step =
         EvaluateStep(task.scene.model, task.goal, task.Input(seen), Unlimited(Law(ControlMode::kEdges), 1.7));
+    if (step.law.status == LawStatus::kIllConditionedEdges) continue;
     ASSERT_EQ(step.law.status, LawStatus::kOk);
+    ++counted;
     const Vector6d expected = 1.7 * ByThePaper(task, seen);
     EXPECT_TRUE(AreNear(step.joint_speeds_m_per_s, expected, 1e-9 * expected.norm()));
     EXPECT_EQ(step.law.edges, static_cast<int>(seen.edges.size()));
     EXPECT_EQ(step.law.legs, step.law.edges / 2);
     EXPECT_EQ(step.law.rank, 6);
   }
+  EXPECT_GE(counted, 40);
 }
 
 // What each law makes of a way to the goal of eps metres, off the joints' true way by a share of it.
@@ -231,15 +235,16 @@ TEST(EdgeLaw, WeightsEachEdgeByItsCovariance) {
   for (int n = 0; n < 30; ++n) {
     const Task task = RandomTask(generator, 0.02);
     SeenEdges seen = EdgesAt(task.scene.model, task.scene.pose);
+    GiveCovariances(seen, 1e-3, generator);
+    seen = Moved(seen, generator);
     GiveCovariances(seen, 0.05, generator);  // beside which the law's least sigma is nothing
     const LawResult result =
         EvaluateLaw(task.scene.model, task.goal, task.Input(seen), Law(ControlMode::kEdges, true));
     ASSERT_EQ(result.status, LawStatus::kOk);
     LegDirections directions;
-    for (int leg = 0; leg < kLegCount; ++leg)
-      directions.col(leg) = (PlatformJointInCamera(task.scene.model, task.scene.pose, leg) -
-                             task.scene.model.base_joint_in_camera_m[static_cast<size_t>(leg)])
-                                .normalized();
+    const NormalsByLeg normals = Normals(seen);
+    for (size_t leg = 0; leg < kLegCount; ++leg)
+      directions.col(static_cast<Eigen::Index>(leg)) = normals[leg][0].cross(normals[leg][1]).normalized();
     const Vector6d expected =
         -CameraInverseJacobian(task.scene.model, directions) * WeightedTwist(task, seen);
     EXPECT_TRUE(AreNear(result.to_go_m, expected, 1e-7 * expected.norm()));

@@ -53,7 +53,8 @@ inline SeenEdges EdgesOf(const GoughStewart& robot, const Rigid3& camera_from_ba
     const Eigen::Vector3d b = camera_from_base * (base_from_platform * leg.platform_joint_m);
     const auto normals = CylinderOutline(LineThrough<double>(a, b), leg.radius_m);
     for (int edge = 0; edge < 2; ++edge) {
-      const Eigen::Vector3d normal = normals[static_cast<size_t>(edge)], aside = leg.radius_m * normal;
+      const Eigen::Vector3d& normal = normals[static_cast<size_t>(edge)];
+      const Eigen::Vector3d aside = leg.radius_m * normal;
       seen.edges.push_back(
           {i, edge, normal, Eigen::Matrix3d::Zero(), {(a + aside).hnormalized(), (b + aside).hnormalized()}});
     }
