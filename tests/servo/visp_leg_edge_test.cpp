@@ -63,9 +63,8 @@ ServoStep OwnStep(const Task& task, const AdaptiveGain& gain) {
   options.limits.speed_limit_m_per_s = 1e6;
   options.limits.look_ahead_s = 1e-9;
   const Vector6d readings_m = InverseKinematics(task.scene.model.robot, task.scene.pose);
-  const ServoStep step = EvaluateStep(task.scene.model, task.goal,
-                                      {task.seen, readings_m, Vector6d::Zero(), task.scene.pose}, options);
-  return step;
+  return EvaluateStep(task.scene.model, task.goal, {task.seen, readings_m, Vector6d::Zero(), task.scene.pose},
+                      options);
 }
 
 // A vpServo task of the same edges.
