@@ -16,6 +16,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Two numbers say where an edge or a direction is; where no noise is given they weigh as if it were this, in
 // half image widths or rad.
 constexpr double kLeastSigma = 1e-6;
+// An edge says one number of the platform's six, for its leg turns about A, and a leg two at most.
+constexpr int kLeastEdges = 6, kLeastLegs = 3;
 
 // Rows of a task, gathered.
 struct Task {
@@ -196,7 +198,7 @@ Matrix6d TwistByPlatformMotion(const ServoModel& model, const Rigid3& base_from_
 // The twist that the features ask for, as joint motion: -J L^+ e.
 void ServoFeatures(const Situation& now, LawResult& result) {
   Task task = TaskOf(now, result);
-  if (task.rows < 6) {
+  if (result.edges < kLeastEdges || result.legs < kLeastLegs) {
     result.status = LawStatus::kTooFewEdges;
     return;
   }
@@ -226,9 +228,15 @@ void ServoPose(const Situation& now, const Rigid3& base_from_platform, LawResult
 
 void ServoPoseFromEdges(const Situation& now, const LawInput& input, LawResult& result) {
   SeenEdges seen;
-  for (const SeenEdge& edge : input.seen.edges)
-    if (now.options.legs[static_cast<size_t>(edge.leg)]) seen.edges.push_back(edge);
+  std::bitset<kLegCount> legs;
+  for (const SeenEdge& edge : input.seen.edges) {
+    const auto leg = static_cast<size_t>(edge.leg);
+    if (!now.options.legs[leg]) continue;
+    seen.edges.push_back(edge);
+    legs.set(leg);
+  }
   result.edges = static_cast<int>(seen.edges.size());
+  result.legs = static_cast<int>(legs.count());
   const EdgePose pose =
       FitPoseToEdges(now.model.robot, now.model.camera_from_base, seen, result.base_from_platform);
   if (pose.status == EdgePoseStatus::kConverged) {
@@ -314,7 +322,7 @@ void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
     legs += options.legs[leg] && counts;
   }
   const bool looks = options.mode == ControlMode::kEdges || options.mode == ControlMode::kDirections;
-  if (looks) demand(legs >= 3, "the goal shows fewer than three of the legs that are looked at");
+  if (looks) demand(legs >= kLeastLegs, "the goal shows fewer than three of the legs that are looked at");
 }
 
 LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,

@@ -147,15 +147,18 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   const Vector6d way_m = (input.time_s - before_->time_s) * commanded_m_per_s;
   commanded_way_m_ += way_m;
   way_since_readings_m_ += way_m;
-  way_since_images_m_ += way_m;
+  // What nothing new comes after is not unanswered: it is late.
+  unanswered_by_readings_m_ += (input.readings.time_s - before_->readings.time_s) * commanded_m_per_s;
+  unanswered_by_images_m_ += (input.seen.time_s - before_->seen.time_s) * commanded_m_per_s;
   if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
     readings_changed_s_ = input.readings.time_s;
+    unanswered_by_readings_m_.setZero();
     // What was commanded after they were taken is still ahead of them.
     way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
-    way_since_images_m_ = (input.time_s - input.seen.time_s) * commanded_m_per_s;
+    unanswered_by_images_m_.setZero();
   }
   before_ = input;
 }
@@ -202,7 +205,8 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
 std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
   const double images_for_s = input.time_s - images_changed_s_;
   const double readings_for_s = input.time_s - readings_changed_s_;
-  const FarthestLeg by_images = Farthest(way_since_images_m_), by_readings = Farthest(way_since_readings_m_);
+  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
+  const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
   const bool images_stand = Looks() && by_images.way_m > options_.unanswered_m;
   const auto way_text = [](const FarthestLeg& farthest) {

@@ -107,7 +107,9 @@ class Supervisor {
   std::optional<CycleInput> before_;
   double readings_changed_s_ = 0, images_changed_s_ = 0;
   Vector6d way_since_readings_m_ = Vector6d::Zero();
-  Vector6d way_since_images_m_ = Vector6d::Zero();
+  // Commanded between the first and the newest of readings and images that are the same.
+  Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
+  Vector6d unanswered_by_images_m_ = Vector6d::Zero();
   Vector6d commanded_way_m_ = Vector6d::Zero();
   double smallest_error_ = 1e300;
   std::deque<Moment> recent_;
