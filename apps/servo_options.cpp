@@ -105,6 +105,18 @@ void AddLawOptions(CLI::App& command, ServoSettings& settings) {
       "Leaves out what has a smaller singular value than this\nshare of the largest");
 }
 
+void AddConditioningOption(CLI::App& command, ControlLawOptions& law) {
+  AddText(
+      command, "--least-conditioning", "RATIO",
+      [&law](const std::string& text) {
+        law.least_conditioning = ParsePositive(text);
+        law.Check();
+      },
+      fmt::format("Stops where what is seen tells some motion of the\nplatform less than this share of the "
+                  "best told one:\nthree legs alone need less; {:g} without it",
+                  law.least_conditioning));
+}
+
 void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
   ServoStepOptions& step = settings.options.step;
   SupervisorOptions& supervision = settings.options.supervision;
@@ -176,6 +188,7 @@ const CLI::App* AddServoCommand(CLI::App& program, ServoSettings& settings) {
   AddRigOptions(*command, settings);
   AddGoalOptions(*command, settings);
   AddLawOptions(*command, settings);
+  AddConditioningOption(*command, settings.options.step.law);
   AddMotionOptions(*command, settings);
   command->final_callback([&settings] { DemandOneGoal(settings.goal); });
   return command;

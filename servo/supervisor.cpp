@@ -239,6 +239,10 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
     return std::nullopt;
   }
   if (!unusable_since_s_) unusable_since_s_ = input.time_s;
+  // Nothing is known of the error meanwhile.
+  within_since_s_.reset();
+  growing_since_s_.reset();
+  recent_.clear();
   const bool at_once = status == LawStatus::kBadReadings || status == LawStatus::kRobotSingular;
   const double for_s = input.time_s - *unusable_since_s_;
   if (!at_once && for_s < options_.unusable_s - kTimeSlack_s) return std::nullopt;
