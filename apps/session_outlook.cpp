@@ -6,25 +6,22 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calib/first_look.h"
+
 namespace legible {
 namespace {
 
 // Numbers of images from which a model is calibrated.
 constexpr std::array<size_t, 4> kCalibrateAt = {8, 12, 20, 40};
-constexpr double kTapePoseRange_px =
-    120;  // how far off the legs may be where a tape measure placed the camera
-constexpr double kUnknownLensBend_px = 12;
-constexpr double kSearch_px = 5;  // how far off edges may be where a model was calibrated
-constexpr int kFewestEdges = 4;   // of an image that tells something
+constexpr size_t kMostScouts = 12;  // images by which the camera is found before a model is calibrated
+constexpr int kLeastEdges = 6;   // expected of a pose; small images show few, and looking for more takes long
+constexpr int kFewestEdges = 4;  // of an image that tells something
 
-LegEdgeOptions EdgeOptions(bool is_calibrated) {
+// Without a lock: the model is good enough.
+LegEdgeOptions FineEdges() {
   LegEdgeOptions options;
   options.lock.reset();
-  options.search_px = kSearch_px;
-  if (is_calibrated) return options;
-  options.lock.emplace().range_px = kTapePoseRange_px;
-  options.search_px = options.rough_bend_px = kUnknownLensBend_px;
-  options.keeps_rough = true;
+  options.search_px = kSearchAfterFirstLook_px;
   return options;
 }
 
@@ -55,20 +52,45 @@ SessionOutlook::SessionOutlook(const Session& session, const OutlookOptions& opt
 Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
                               const Vector6d& joint_readings_m) const {
   Sighting sighting;
-  const GoughStewart& robot = input_.start ? input_.start->robot : input_.drawing;
-  const Camera& camera = input_.start ? input_.start->camera : input_.camera;
-  const Rigid3& camera_from_base = input_.start ? input_.start->camera_from_base : input_.camera_from_base;
-  const auto pose = ForwardKinematics(robot, joint_readings_m, robot.home);
+  RigModel model{input_.drawing, input_.camera, input_.camera_from_base};
+  if (input_.start) {
+    model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
+  } else {
+    sighting.rough =
+        Measure(model, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), kTapePoseRange_px))
+            .observation;
+    model = Scouted(*sighting.rough);
+  }
+  Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
+  fine.rough = std::move(sighting.rough);
+  return fine;
+}
+
+Sighting SessionOutlook::Measure(const RigModel& model, const std::string& name, const GrayImage& image,
+                                 const Vector6d& joint_readings_m, const LegEdgeOptions& options) const {
+  Sighting sighting;
+  const auto pose = ForwardKinematics(model.robot, joint_readings_m, model.robot.home);
   if (pose.status != ForwardKinematicsStatus::kConverged) {
     sighting.unusable = "no pose of the platform has its joint readings";
     return sighting;
   }
-  const LegEdges edges = MeasureLegEdges(image, PlaceLegs(robot, camera_from_base, pose.base_from_platform),
-                                         camera, EdgeOptions(input_.start.has_value()));
+  const LegsInCamera legs = PlaceLegs(model.robot, model.camera_from_base, pose.base_from_platform);
+  const LegEdges edges = MeasureLegEdges(image, legs, model.camera, options);
   sighting.observation = ToObservation(name, joint_readings_m, edges);
   sighting.edges = static_cast<int>(sighting.observation.edges.size());
   if (sighting.edges < kFewestEdges) sighting.unusable = WhyUnusable(edges);
   return sighting;
+}
+
+// The model that the first looks at all images so far, and at one more, lead to; else the drawing's.
+RigModel SessionOutlook::Scouted(const ImageObservation& one_more) const {
+  LegCalibrationInput input = input_;
+  input.images = scouts_;
+  if (input.images.size() < kMostScouts) input.images.push_back(one_more);
+  const LegCalibration found = FirstLook(std::move(input), HeldParameters(), options_.threads);
+  if (found.status != CalibrationStatus::kConverged)
+    return {input_.drawing, input_.camera, input_.camera_from_base};
+  return {found.robot, found.camera, found.camera_from_base};
 }
 
 void SessionOutlook::Add(const Session& session, const Sighting& sighting) {
@@ -84,6 +106,7 @@ void SessionOutlook::Reject(const Rigid3& base_from_platform) {
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
+  if (sighting.rough && scouts_.size() < kMostScouts) scouts_.push_back(*sighting.rough);
   if (!sighting.unusable.empty()) return;
   try {
     proposer_->Add(sighting.observation);
@@ -96,6 +119,7 @@ void SessionOutlook::Take(const Sighting& sighting) {
 void SessionOutlook::Propose(std::vector<ImageObservation> images) {
   PoseProposalOptions options;
   options.candidates.seed = options_.seed;
+  options.candidates.least_edges = kLeastEdges;
   options.threads = options_.threads;
   options.noise = noise_;
   LegCalibrationInput input = input_;

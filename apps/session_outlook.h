@@ -21,12 +21,14 @@ struct OutlookOptions {
 // What an image shows of the legs.
 struct Sighting {
   ImageObservation observation;
-  int edges = 0;         // of twelve, as measured
-  std::string unusable;  // why the image tells nothing; empty: it does
+  int edges = 0;                          // of twelve, as measured
+  std::string unusable;                   // why the image tells nothing; empty: it does
+  std::optional<ImageObservation> rough;  // of the first look, while no model has been calibrated
 };
 
-// Legs are looked for where the model has them: at first the drawing's, with a lock for a camera placed by
-// tape measure; from a few images on the model that these lead to, which also foretells better. Everything
+// Legs are looked for where the model has them: at first by a first look as a calibration takes it, for a
+// camera placed by tape measure; from a few images on by the model that these lead to, which also foretells
+// better. Everything
 // depends on the session's images and their order alone: who goes on later goes on the same.
 class SessionOutlook {
  public:
@@ -49,12 +51,16 @@ class SessionOutlook {
 
  private:
   void Propose(std::vector<ImageObservation> images);
+  Sighting Measure(const RigModel& model, const std::string& name, const GrayImage& image,
+                   const Vector6d& joint_readings_m, const LegEdgeOptions& options) const;
+  RigModel Scouted(const ImageObservation& one_more) const;
   bool Calibrate(const Session& session, size_t images);
   void Take(const Sighting& sighting);
 
   OutlookOptions options_;
   LegCalibrationInput input_;  // start: the model
   EdgeNoise noise_;
+  std::vector<ImageObservation> scouts_;
   std::vector<Rigid3> rejected_;
   int images_in_model_ = 0;
   std::unique_ptr<PoseProposer> proposer_;
