@@ -81,13 +81,18 @@ class Capturer {
   bool IsDone() {
     const auto& sigma_m = run_.expected.position_m;
     if (settings_.until_m && sigma_m && *sigma_m <= *settings_.until_m)
-      End(true, fmt::format("{} of predicted positions are expected to be within {:.4g} mm, as asked for",
-                            "σ", 1e3 * *settings_.until_m));
+      End(true, fmt::format("σ of predicted positions is expected to be {:.4g} mm, {:.4g} mm were asked for",
+                            1e3 * *sigma_m, 1e3 * *settings_.until_m));
     else if (!settings_.poses && Count() >= Limit())
-      End(settings_.count || !settings_.until_m,
-          fmt::format("the session has {}", Plural(Count(), "image")) +
-              (settings_.count || !settings_.until_m ? std::string() : ", and " + SigmaText()));
+      EndByCount();
     return !run_.reason.empty();
+  }
+
+  // Where a sigma alone was asked for, the usual number of images is only how long that is tried.
+  void EndByCount() {
+    const bool is_complete = settings_.count || !settings_.until_m;
+    const std::string images = fmt::format("the session has {}", Plural(Count(), "image"));
+    End(is_complete, is_complete ? images : images + ", and " + SigmaText());
   }
 
   std::string SigmaText() const {

@@ -13,9 +13,13 @@ namespace {
 
 // Numbers of images from which a model is calibrated.
 constexpr std::array<size_t, 4> kCalibrateAt = {8, 12, 20, 40};
-constexpr size_t kMostScouts = 12;  // images by which the camera is found before a model is calibrated
+constexpr double kTapePose_rad = 0.1;  // how far off the legs may be seen then
+constexpr size_t kMostScouts = 12;     // images by which the camera is found before a model is calibrated
 constexpr int kLeastEdges = 6;   // expected of a pose; small images show few, and looking for more takes long
 constexpr int kFewestEdges = 4;  // of an image that tells something
+
+// Of a camera placed by tape measure.
+double RangeOf(const Camera& camera) { return std::min(kTapePoseRange_px, kTapePose_rad * camera.fx_px); }
 
 // Without a lock: the model is good enough.
 LegEdgeOptions FineEdges() {
@@ -56,9 +60,9 @@ Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
   if (input_.start) {
     model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
   } else {
-    sighting.rough =
-        Measure(model, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), kTapePoseRange_px))
-            .observation;
+    sighting.rough = Measure(model, name, image, joint_readings_m,
+                             FirstLookEdges(LegEdgeOptions(), RangeOf(input_.camera)))
+                         .observation;
     model = Scouted(*sighting.rough);
   }
   Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
@@ -96,7 +100,7 @@ RigModel SessionOutlook::Scouted(const ImageObservation& one_more) const {
 void SessionOutlook::Add(const Session& session, const Sighting& sighting) {
   const size_t count = session.images.size();
   const bool is_due = std::find(kCalibrateAt.begin(), kCalibrateAt.end(), count) != kCalibrateAt.end();
-  if (is_due && Calibrate(session, count)) return;
+  if (is_due && tells_something_ && Calibrate(session, count)) return;
   Take(sighting);
 }
 
@@ -110,6 +114,7 @@ void SessionOutlook::Take(const Sighting& sighting) {
   if (!sighting.unusable.empty()) return;
   try {
     proposer_->Add(sighting.observation);
+    tells_something_ = true;
   } catch (const std::runtime_error&) {
     // The model cannot produce these edges at all: nothing can be said of what they are worth.
   } catch (const std::invalid_argument&) {
@@ -149,6 +154,7 @@ bool SessionOutlook::Calibrate(const Session& session, size_t images) {
     observations.push_back(
         ToObservation(first.images[i].name, first.images[i].joint_readings_m, found.images[i].edges));
   images_in_model_ = static_cast<int>(images);
+  tells_something_ = true;
   Propose(std::move(observations));
   return true;
 }

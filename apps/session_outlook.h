@@ -63,6 +63,7 @@ class SessionOutlook {
   std::vector<ImageObservation> scouts_;
   std::vector<Rigid3> rejected_;
   int images_in_model_ = 0;
+  bool tells_something_ = false;  // some image; else no model can come of them
   std::unique_ptr<PoseProposer> proposer_;
 };
 
