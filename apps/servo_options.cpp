@@ -105,6 +105,18 @@ void AddLawOptions(CLI::App& command, ServoSettings& settings) {
       "Leaves out what has a smaller singular value than this\nshare of the largest");
 }
 
+void AddConditioningOption(CLI::App& command, ControlLawOptions& law) {
+  AddText(
+      command, "--least-conditioning", "RATIO",
+      [&law](const std::string& text) {
+        law.least_conditioning = ParsePositive(text);
+        law.Check();
+      },
+      fmt::format("Stops where what is seen tells some motion of the\nplatform less than this share of the "
+                  "best told one:\nthree legs alone need less; {:g} without it",
+                  law.least_conditioning));
+}
+
 void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
   ServoStepOptions& step = settings.options.step;
   SupervisorOptions& supervision = settings.options.supervision;
@@ -129,8 +141,8 @@ void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
       command, "--tolerance", "ERROR",
       [&supervision](const std::string& text) { supervision.tolerance = ParsePositive(text); },
       "Converged when the error of the mode stays below: px of\nedges, rad of directions, m of poses and "
-      "joints;\nwithout it 0.25 px, 2e-3 rad, 1e-4 m, 5e-5 m, and more\nwhere the noise of the edges is "
-      "larger");
+      "joints;\nwithout it 0.1 px, 2e-3 rad, 1e-4 m, 5e-5 m, or where it\nno longer falls and is what noise "
+      "leaves");
 }
 
 void AddRigOptions(CLI::App& command, ServoSettings& settings) {
@@ -176,6 +188,7 @@ const CLI::App* AddServoCommand(CLI::App& program, ServoSettings& settings) {
   AddRigOptions(*command, settings);
   AddGoalOptions(*command, settings);
   AddLawOptions(*command, settings);
+  AddConditioningOption(*command, settings.options.step.law);
   AddMotionOptions(*command, settings);
   command->final_callback([&settings] { DemandOneGoal(settings.goal); });
   return command;

@@ -29,7 +29,9 @@ libssl-dev           SHA-256 of a session, base64 of pictures
 libgtest-dev         tests
 libgmock-dev         tests
 libbenchmark-dev     benchmarks
+libvisp-visual-features-dev  leg edges as features of ViSP
 libvisp-me-dev       benchmarks: ViSP's moving edges, to compare with
+libvisp-vs-dev       tests, benchmarks: ViSP's control law, to compare with
 chromium             tests: opens the report's pages
 LIST
 }

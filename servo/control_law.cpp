@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/geometry/tangents.h"
+#include "servo/image_errors.h"
 #include "servo/interaction.h"
 
 namespace legible {
@@ -16,6 +17,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Two numbers say where an edge or a direction is; where no noise is given they weigh as if it were this, in
 // half image widths or rad.
 constexpr double kLeastSigma = 1e-6;
+// An edge says one number of the platform's six, for its leg turns about A, and a leg two at most.
+constexpr int kLeastEdges = 6, kLeastLegs = 3;
 
 // Rows of a task, gathered.
 struct Task {
@@ -42,48 +45,6 @@ struct Situation {
   Vector6d length_m;
   LegDirections directions;  // for the interaction matrices
 };
-
-double Rms(double squares, int count) { return count > 0 ? std::sqrt(squares / count) : kNan; }
-
-// Distance of the line with that outline normal from an image point (normalised coordinates), px, and its
-// standard deviation.
-struct LineOffset {
-  double offset_px, sigma_px;
-};
-LineOffset OffsetAt(const ServoModel& model, const SeenEdge& seen, const Eigen::Vector2d& point) {
-  const Eigen::Vector3d x = point.homogeneous();
-  const double scale = model.focal_px / seen.normal.head<2>().norm();
-  return {scale * seen.normal.dot(x), scale * std::sqrt(std::max(0.0, x.dot(seen.normal_covariance * x)))};
-}
-
-struct ImageErrors {
-  double edge_px, edge_noise_px, direction_rad, direction_noise_rad;
-};
-ImageErrors MeasureErrors(const Situation& now) {
-  double edge2 = 0, edge_noise2 = 0, direction2 = 0, direction_noise2 = 0;
-  int ends = 0, legs = 0;
-  for (size_t leg = 0; leg < kLegCount; ++leg) {
-    for (size_t edge = 0; edge < 2; ++edge) {
-      const auto &seen = now.seen[leg][edge], &goal = now.goal.edges[leg][edge];
-      if (!seen || !goal) continue;
-      for (const Eigen::Vector2d& end : goal->ends) {
-        const LineOffset offset = OffsetAt(now.model, *seen, end);
-        edge2 += offset.offset_px * offset.offset_px;
-        edge_noise2 += offset.sigma_px * offset.sigma_px;
-        ++ends;
-      }
-    }
-    const auto& [edge_1, edge_2] = now.seen[leg];
-    if (!edge_1 || !edge_2 || !now.goal.directions[leg]) continue;
-    const Eigen::Vector3d u = DirectionFromEdges(edge_1->normal, edge_2->normal);
-    const double angle =
-        std::atan2(u.cross(*now.goal.directions[leg]).norm(), u.dot(*now.goal.directions[leg]));
-    direction2 += angle * angle;
-    direction_noise2 += DirectionCovariance(*edge_1, *edge_2).trace();
-    ++legs;
-  }
-  return {Rms(edge2, ends), Rms(edge_noise2, ends), Rms(direction2, legs), Rms(direction_noise2, legs)};
-}
 
 EdgesByLeg OfLegs(const SeenEdges& seen, const std::bitset<kLegCount>& legs) {
   EdgesByLeg edges = ByLeg(seen);
@@ -196,7 +157,7 @@ Matrix6d TwistByPlatformMotion(const ServoModel& model, const Rigid3& base_from_
 // The twist that the features ask for, as joint motion: -J L^+ e.
 void ServoFeatures(const Situation& now, LawResult& result) {
   Task task = TaskOf(now, result);
-  if (task.rows < 6) {
+  if (result.edges < kLeastEdges || result.legs < kLeastLegs) {
     result.status = LawStatus::kTooFewEdges;
     return;
   }
@@ -226,9 +187,15 @@ void ServoPose(const Situation& now, const Rigid3& base_from_platform, LawResult
 
 void ServoPoseFromEdges(const Situation& now, const LawInput& input, LawResult& result) {
   SeenEdges seen;
-  for (const SeenEdge& edge : input.seen.edges)
-    if (now.options.legs[static_cast<size_t>(edge.leg)]) seen.edges.push_back(edge);
+  std::bitset<kLegCount> legs;
+  for (const SeenEdge& edge : input.seen.edges) {
+    const auto leg = static_cast<size_t>(edge.leg);
+    if (!now.options.legs[leg]) continue;
+    seen.edges.push_back(edge);
+    legs.set(leg);
+  }
   result.edges = static_cast<int>(seen.edges.size());
+  result.legs = static_cast<int>(legs.count());
   const EdgePose pose =
       FitPoseToEdges(now.model.robot, now.model.camera_from_base, seen, result.base_from_platform);
   if (pose.status == EdgePoseStatus::kConverged) {
@@ -314,14 +281,14 @@ void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
     legs += options.legs[leg] && counts;
   }
   const bool looks = options.mode == ControlMode::kEdges || options.mode == ControlMode::kDirections;
-  if (looks) demand(legs >= 3, "the goal shows fewer than three of the legs that are looked at");
+  if (looks) demand(legs >= kLeastLegs, "the goal shows fewer than three of the legs that are looked at");
 }
 
 LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
                       const ControlLawOptions& options) {
   LawResult result;
   Situation now{model, goal, options, OfLegs(input.seen, options.legs), {}, {}};
-  const ImageErrors errors = MeasureErrors(now);
+  const ImageErrors errors = MeasureImageErrors(model, now.seen, goal);
   result.edge_error_px = errors.edge_px;
   result.direction_error_rad = errors.direction_rad;
   result.error = kNan;

@@ -55,7 +55,7 @@ enum class LawStatus {
   kBadReadings,          // not numbers
   kNoPose,               // the readings belong to no pose near the last one
   kRobotSingular,        // closer to a singularity than least_robot_conditioning
-  kTooFewEdges,          // of legs that the goal has too
+  kTooFewEdges,          // fewer than six, or of fewer than three legs, that the goal has too
   kIllConditionedEdges,  // less than least_conditioning
   kNoPoseFromEdges,
 };
@@ -95,7 +95,7 @@ const char* UnitOf(ControlMode mode);
 // Throws std::invalid_argument, in words for the user, where the goal does not say what the mode needs.
 void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options);
 
-// Depends on nothing but what it is given. Allocates nothing.
+// Depends on nothing but what it is given. Allocates nothing, unless it fits a pose to edges.
 LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
                       const ControlLawOptions& options);
 

@@ -60,6 +60,7 @@ class BoundedLeastSquares {
     const Vector6d best = BestFree();
     double step = 1;
     int stopped_by = -1;
+    bool is_stopped_below = false;
     for (int i = 0; i < 6; ++i) {
       if (!IsFree(i)) continue;
       const double bound = best[i] < x_[i] ? bounds_.lowest[i] : bounds_.highest[i];
@@ -69,14 +70,14 @@ class BoundedLeastSquares {
       if (stopped_by >= 0 && share >= step) continue;
       step = share;
       stopped_by = i;
+      is_stopped_below = best[i] < x_[i];
     }
     for (int i = 0; i < 6; ++i)
       if (IsFree(i))
         x_[i] = std::clamp(x_[i] + step * (best[i] - x_[i]), bounds_.lowest[i], bounds_.highest[i]);
     if (stopped_by < 0) return true;
-    const bool down = best[stopped_by] < x_[stopped_by] || x_[stopped_by] == bounds_.lowest[stopped_by];
-    at_[static_cast<size_t>(stopped_by)] = down ? At::kLowest : At::kHighest;
-    x_[stopped_by] = down ? bounds_.lowest[stopped_by] : bounds_.highest[stopped_by];
+    at_[static_cast<size_t>(stopped_by)] = is_stopped_below ? At::kLowest : At::kHighest;
+    x_[stopped_by] = is_stopped_below ? bounds_.lowest[stopped_by] : bounds_.highest[stopped_by];
     return false;
   }
 
@@ -87,7 +88,8 @@ class BoundedLeastSquares {
     int strongest = -1;
     double strength = least;
     for (int i = 0; i < 6; ++i) {
-      if (IsFree(i)) continue;
+      // A joint without any play would be held again at once, and so on for ever.
+      if (IsFree(i) || bounds_.lowest[i] == bounds_.highest[i]) continue;
       const double inward = at_[static_cast<size_t>(i)] == At::kLowest ? pull[i] : -pull[i];
       if (inward <= strength) continue;
       strength = inward;

@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <limits>
 #include <stdexcept>
 
 namespace legible {
@@ -18,6 +19,10 @@ LeastSquares SolveLeastSquares(const TaskMatrix& matrix, const TaskVector& right
   if (matrix.rows() < 6 || matrix.rows() != right.rows())
     throw std::invalid_argument("SolveLeastSquares: six rows at least, and as many on the right");
   LeastSquares result;
+  if (!matrix.allFinite() || !right.allFinite()) {
+    result.singular_values.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return result;
+  }
   // First to a triangle: the singular values of six columns are then those of six rows.
   const Eigen::HouseholderQR<TaskMatrix> qr(matrix);
   result.triangle = qr.matrixQR().topRows<6>().triangularView<Eigen::Upper>();

@@ -28,7 +28,8 @@ struct LeastSquares {
   int rank = 0;                                 // singular values that were not left out
 };
 
-// matrix needs six rows or more. Allocates nothing.
+// matrix needs six rows or more. Where anything is not a number, so are the singular values, and the rank is
+// 0. Allocates nothing.
 LeastSquares SolveLeastSquares(const TaskMatrix& matrix, const TaskVector& right,
                                const PseudoInverseOptions& options);
 

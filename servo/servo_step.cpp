@@ -102,8 +102,8 @@ std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options)
       return fmt::format("the robot is at a singularity: conditioning {:.2g}, at least {:.2g} is asked for",
                          law.robot_conditioning, options.least_robot_conditioning);
     case LawStatus::kTooFewEdges:
-      return fmt::format("too few edges are seen: {} of {} legs, where three legs are needed", law.edges,
-                         law.legs);
+      return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed",
+                         law.edges, law.legs);
     case LawStatus::kIllConditionedEdges:
       return fmt::format(
           "the {} edges seen, of {} legs, leave a motion of the platform open: conditioning {:.2g}, at least "

@@ -12,7 +12,7 @@ namespace legible {
 struct ServoStepOptions {
   ControlLawOptions law;
   // Of the farthest that a joint still has to go, m: in every mode the same.
-  AdaptiveGain gain = AdaptiveGain::Constant(2);
+  AdaptiveGain gain{4, 2, 400};
   JointLimitOptions limits;
   // Between this many times the least conditioning, of the robot or of what is seen, and the least itself the
   // robot slows down to nothing.

@@ -105,7 +105,7 @@ const char* ToString(ServoEnd end) {
 double DefaultTolerance(ControlMode mode) {
   switch (mode) {
     case ControlMode::kEdges:
-      return 0.25;
+      return 0.1;
     case ControlMode::kDirections:
       return 2e-3;
     case ControlMode::kPose:
@@ -147,15 +147,18 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   const Vector6d way_m = (input.time_s - before_->time_s) * commanded_m_per_s;
   commanded_way_m_ += way_m;
   way_since_readings_m_ += way_m;
-  way_since_images_m_ += way_m;
+  // What nothing new comes after is not unanswered: it is late.
+  unanswered_by_readings_m_ += (input.readings.time_s - before_->readings.time_s) * commanded_m_per_s;
+  unanswered_by_images_m_ += (input.seen.time_s - before_->seen.time_s) * commanded_m_per_s;
   if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
     readings_changed_s_ = input.readings.time_s;
+    unanswered_by_readings_m_.setZero();
     // What was commanded after they were taken is still ahead of them.
     way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
-    way_since_images_m_ = (input.time_s - input.seen.time_s) * commanded_m_per_s;
+    unanswered_by_images_m_.setZero();
   }
   before_ = input;
 }
@@ -170,7 +173,7 @@ Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
     verdict = Ended(ServoEnd::kTimeout, fmt::format("not converged within {:.1f} s: {} left",
                                                     options_.timeout_s, ErrorText(step.law.error)));
   if (verdict) last_ = *verdict;
-  last_.tolerance = ToleranceFor(step);
+  last_.tolerance = options_.tolerance;
   return last_;
 }
 
@@ -202,7 +205,8 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
 std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
   const double images_for_s = input.time_s - images_changed_s_;
   const double readings_for_s = input.time_s - readings_changed_s_;
-  const FarthestLeg by_images = Farthest(way_since_images_m_), by_readings = Farthest(way_since_readings_m_);
+  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
+  const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
   const bool images_stand = Looks() && by_images.way_m > options_.unanswered_m;
   const auto way_text = [](const FarthestLeg& farthest) {
@@ -235,6 +239,10 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
     return std::nullopt;
   }
   if (!unusable_since_s_) unusable_since_s_ = input.time_s;
+  // Nothing is known of the error meanwhile.
+  within_since_s_.reset();
+  growing_since_s_.reset();
+  recent_.clear();
   const bool at_once = status == LawStatus::kBadReadings || status == LawStatus::kRobotSingular;
   const double for_s = input.time_s - *unusable_since_s_;
   if (!at_once && for_s < options_.unusable_s - kTimeSlack_s) return std::nullopt;
@@ -245,7 +253,7 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
   if (last_.is_waiting) return std::nullopt;
   if (HasArrived(input, step))
     return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
-                                                   ErrorText(step.law.error), ErrorText(ToleranceFor(step))));
+                                                   ErrorText(step.law.error), ErrorText(options_.tolerance)));
   if (Grows(input, step.law.error))
     return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
                                                     ErrorText(step.law.error), ErrorText(smallest_error_)));
@@ -253,7 +261,7 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
 }
 
 bool Supervisor::HasArrived(const CycleInput& input, const ServoStep& step) {
-  if (!(step.law.error <= ToleranceFor(step))) {
+  if (!(step.law.error <= options_.tolerance)) {
     within_since_s_.reset();
     return false;
   }
@@ -285,7 +293,12 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
     sums[moment.time_s >= middle_s] += moment.error;
     ++counts[moment.time_s >= middle_s];
   }
-  const bool falls = sums[1] / counts[1] < (1 - options_.stall_share) * sums[0] / counts[0];
+  const double mean = sums[1] / counts[1];
+  const bool falls = mean < (1 - options_.stall_share) * sums[0] / counts[0];
+  if (!falls && mean <= options_.tolerance_in_noise * step.law.error_noise)
+    return Ended(ServoEnd::kConverged,
+                 fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
+                             ErrorText(mean), ErrorText(step.law.error_noise)));
   if (!falls) return WhyStalled(step);
   recent_.pop_front();
   return std::nullopt;
@@ -315,17 +328,13 @@ Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   return Ended(
       ServoEnd::kStalled,
       fmt::format("{} and nothing holds the robot: a local minimum, or noise above the tolerance of {}",
-                  error, ErrorText(ToleranceFor(step))));
+                  error, ErrorText(options_.tolerance)));
 }
 
 std::string Supervisor::ErrorText(double error) const {
   if (law_.mode == ControlMode::kEdges) return fmt::format("{:.2f} px", error);
   if (law_.mode == ControlMode::kDirections) return fmt::format("{:.2f} mrad", 1e3 * error);
   return fmt::format("{:.3f} mm", 1e3 * error);
-}
-
-double Supervisor::ToleranceFor(const ServoStep& step) const {
-  return std::max(options_.tolerance, options_.tolerance_in_noise * step.law.error_noise);
 }
 
 }  // namespace legible

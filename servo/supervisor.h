@@ -35,14 +35,15 @@ const char* ToString(ServoEnd end);
 
 struct SupervisorOptions {
   double tolerance = 0;  // of the error, in the mode's unit; 0: DefaultTolerance
-  // An error that is no more than this many times what noise alone leaves is within the tolerance too.
+  // An error that no longer falls and is no more than this many times what noise alone leaves has converged
+  // too.
   double tolerance_in_noise = 1.5;
   double dwell_s = 0.2;        // for which it is to stay there
   double stale_s = 0.1;        // oldest image, oldest readings
   double unusable_s = 0.5;     // for which too little may be seen: the robot waits
   double unanswered_m = 3e-3;  // of commanded way that nothing answers
   double growth_factor = 1.5;  // over the smallest error so far, and as many tolerances as below
-  double growth_tolerances = 20;
+  double growth_tolerances = 50;
   double growth_s = 0.5;
   double stall_s = 3;  // in which the error must fall by stall_share
   double stall_share = 0.05;
@@ -51,7 +52,7 @@ struct SupervisorOptions {
   void Check() const;  // throws std::invalid_argument
 };
 
-// 0.25 px, 2 mrad, 0.1 mm for a pose and 0.05 mm for joints.
+// 0.1 px, 2 mrad, 0.1 mm for a pose and 0.05 mm for joints.
 double DefaultTolerance(ControlMode mode);
 
 // What a cycle of the loop begins with.
@@ -65,7 +66,7 @@ struct Verdict {
   ServoEnd end = ServoEnd::kRunning;
   std::string reason;       // in words; empty while it runs
   bool is_waiting = false;  // running, but not allowed to move: too little is seen
-  double tolerance = 0;     // as it is at the moment
+  double tolerance = 0;     // of the error
 };
 
 class Supervisor {
@@ -98,7 +99,6 @@ class Supervisor {
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
-  double ToleranceFor(const ServoStep& step) const;
 
   ControlLawOptions law_;
   SupervisorOptions options_;
@@ -107,7 +107,9 @@ class Supervisor {
   std::optional<CycleInput> before_;
   double readings_changed_s_ = 0, images_changed_s_ = 0;
   Vector6d way_since_readings_m_ = Vector6d::Zero();
-  Vector6d way_since_images_m_ = Vector6d::Zero();
+  // Commanded between the first and the newest of readings and images that are the same.
+  Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
+  Vector6d unanswered_by_images_m_ = Vector6d::Zero();
   Vector6d commanded_way_m_ = Vector6d::Zero();
   double smallest_error_ = 1e300;
   std::deque<Moment> recent_;

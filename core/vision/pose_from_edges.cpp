@@ -12,6 +12,7 @@ namespace legible {
 namespace {
 
 constexpr int kMaxIterations = 20;
+constexpr int kLeastEdges = 6;              // each says one number of the pose, for its leg turns about A
 constexpr double kSmallStep = 1e-11;        // of the platform joints, in leg lengths
 constexpr double kLeastPivotShare = 1e-12;  // of the information in natural units
 constexpr double kLeastNormalSigma = 1e-9;  // rad: edges without noise weigh alike
@@ -101,7 +102,7 @@ EdgePose FitPoseToEdges(const GoughStewart& robot, const Rigid3& camera_from_bas
   for (; found.iterations < kMaxIterations; ++found.iterations) {
     const auto normals = NormalsAt(robot, camera_from_base, seen, found.base_from_platform);
     if (!normals || !std::isfinite(normals->squares)) return found;
-    if (normals->rows < 6 || IsOpen(normals->information, radius_m)) {
+    if (normals->rows < 2 * kLeastEdges || IsOpen(normals->information, radius_m)) {
       found.status = EdgePoseStatus::kTooFewEdges;
       return found;
     }

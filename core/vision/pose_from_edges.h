@@ -8,7 +8,7 @@ namespace legible {
 
 enum class EdgePoseStatus {
   kConverged,
-  kTooFewEdges,   // fewer than six numbers to fit six by, or edges that leave a motion of the platform open
+  kTooFewEdges,   // fewer than six, or they leave a motion of the platform open
   kNotConverged,  // no pose near the guess has such edges
 };
 const char* ToString(EdgePoseStatus status);
