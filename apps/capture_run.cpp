@@ -34,7 +34,8 @@ class Capturer {
         rig_(*prepared.rig.rig),
         growing_(*prepared.session),
         listener_(listener),
-        outlook_(growing_.session(), {static_cast<std::uint64_t>(settings_.seed), settings_.threads}) {
+        outlook_(growing_.session(),
+                 {!settings_.poses, static_cast<std::uint64_t>(settings_.seed), settings_.threads}) {
     run_.images_before = static_cast<int>(growing_.session().images.size());
     run_.expected = outlook_.Expected();
     drive_.limits.speed_limit_m_per_s = settings_.speed_limit_m_per_s;

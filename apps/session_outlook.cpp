@@ -125,6 +125,7 @@ void SessionOutlook::Propose(std::vector<ImageObservation> images) {
   PoseProposalOptions options;
   options.candidates.seed = options_.seed;
   options.candidates.least_edges = kLeastEdges;
+  if (!options_.proposes) options.candidates.count = 1;
   options.threads = options_.threads;
   options.noise = noise_;
   LegCalibrationInput input = input_;

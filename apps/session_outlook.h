@@ -14,6 +14,7 @@
 namespace legible {
 
 struct OutlookOptions {
+  bool proposes = true;    // false: poses come from elsewhere, and Next has hardly any
   std::uint64_t seed = 1;  // of the candidates for poses
   int threads = 2;
 };
