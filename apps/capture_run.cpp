@@ -167,17 +167,26 @@ class Capturer {
                   true);
     const Sighting sighting = outlook_.Look(target.name, shot.image.image, shot.readings.joint_readings_m);
     times.look_s = watch.Lap();
-    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false);
+    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false, false);
     growing_.Add(target.name, EncodePng(shot.image.image), shot.readings.joint_readings_m);
     times.store_s = watch.Lap();
     last_ = shot;
     outlook_.Add(growing_.session(), sighting);
+    Warn(outlook_.trouble());
     run_.expected = outlook_.Expected();
     times.outlook_s = watch.Lap();
     run_.images.push_back({target.name, target.base_from_platform, shot.readings.joint_readings_m,
                            sighting.edges, sighting.unusable, run_.expected, times});
     listener_.captured(run_.images.back());
     return true;
+  }
+
+  // Once.
+  void Warn(const std::string& sentence) {
+    if (sentence.empty() || sentence == last_warning_) return;
+    last_warning_ = sentence;
+    run_.warnings.push_back(sentence);
+    listener_.warned(sentence);
   }
 
   bool DriveTo(const Target& target) {
@@ -192,7 +201,7 @@ class Capturer {
   }
 
   // Returns false, for whoever failed.
-  bool Fail(const Target& target, const std::string& reason, bool is_hopeless) {
+  bool Fail(const Target& target, const std::string& reason, bool is_hopeless, bool for_good = true) {
     if (interruption_.HasCome()) {
       End(false, "stopped by the user");
       return false;
@@ -201,7 +210,7 @@ class Capturer {
       End(false, reason);
       return false;
     }
-    outlook_.Reject(target.base_from_platform);
+    outlook_.Reject(target.base_from_platform, for_good);
     missing_.push_back(target.name);
     run_.rejected.push_back({target.name, target.base_from_platform, reason});
     listener_.rejected(run_.rejected.back());
@@ -227,6 +236,7 @@ class Capturer {
   size_t next_pose_ = 0;
   int failures_ = 0;
   std::vector<std::string> missing_;
+  std::string last_warning_;
   std::optional<ImageAtRest> last_;
   CaptureRun run_;
 };

@@ -1,5 +1,7 @@
 #include "apps/session_outlook.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -13,13 +15,9 @@ namespace {
 
 // Numbers of images from which a model is calibrated.
 constexpr std::array<size_t, 4> kCalibrateAt = {8, 12, 20, 40};
-constexpr double kTapePose_rad = 0.1;  // how far off the legs may be seen then
-constexpr size_t kMostScouts = 12;     // images by which the camera is found before a model is calibrated
+constexpr size_t kMostScouts = 12;  // images by which the camera is found before a model is calibrated
 constexpr int kLeastEdges = 6;   // expected of a pose; small images show few, and looking for more takes long
 constexpr int kFewestEdges = 4;  // of an image that tells something
-
-// Of a camera placed by tape measure.
-double RangeOf(const Camera& camera) { return std::min(kTapePoseRange_px, kTapePose_rad * camera.fx_px); }
 
 // Without a lock: the model is good enough.
 LegEdgeOptions FineEdges() {
@@ -61,7 +59,7 @@ Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
     model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
   } else {
     sighting.rough = Measure(model, name, image, joint_readings_m,
-                             FirstLookEdges(LegEdgeOptions(), RangeOf(input_.camera)))
+                             FirstLookEdges(LegEdgeOptions(), TapePoseRange_px(input_.camera)))
                          .observation;
     model = Scouted(*sighting.rough);
   }
@@ -104,16 +102,27 @@ void SessionOutlook::Add(const Session& session, const Sighting& sighting) {
   Take(sighting);
 }
 
-void SessionOutlook::Reject(const Rigid3& base_from_platform) {
-  rejected_.push_back(base_from_platform);
+void SessionOutlook::Reject(const Rigid3& base_from_platform, bool for_good) {
+  (for_good ? rejected_ : rejected_for_now_).push_back(base_from_platform);
   proposer_->Reject(base_from_platform);
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
   if (sighting.rough && scouts_.size() < kMostScouts) scouts_.push_back(*sighting.rough);
-  if (!sighting.unusable.empty()) return;
+  if (sighting.unusable.empty()) {
+    observations_.push_back(sighting.observation);
+    AddToProposer(sighting.observation);
+  }
+  // A further first look sees better.
+  if (!input_.start && !rejected_for_now_.empty()) {
+    Propose({});
+    for (const ImageObservation& observation : observations_) AddToProposer(observation);
+  }
+}
+
+void SessionOutlook::AddToProposer(const ImageObservation& observation) {
   try {
-    proposer_->Add(sighting.observation);
+    proposer_->Add(observation);
     tells_something_ = true;
   } catch (const std::runtime_error&) {
     // The model cannot produce these edges at all: nothing can be said of what they are worth.
@@ -133,6 +142,7 @@ void SessionOutlook::Propose(std::vector<ImageObservation> images) {
   LegCalibrationOptions estimation;
   estimation.threads = options_.threads;
   proposer_ = std::make_unique<PoseProposer>(std::move(input), estimation, options);
+  rejected_for_now_.clear();
   for (const Rigid3& pose : rejected_) proposer_->Reject(pose);
 }
 
@@ -146,7 +156,11 @@ bool SessionOutlook::Calibrate(const Session& session, size_t images) {
   options.threads = options.estimation.threads = options_.threads;
   const SessionCalibration found = CalibrateSession(first, options);
   const LegCalibration& calibration = found.calibration;
-  if (calibration.status != CalibrationStatus::kConverged) return false;
+  trouble_.clear();
+  if (calibration.status != CalibrationStatus::kConverged) {
+    trouble_ = fmt::format("the first {} images lead to no model yet: {}", images, calibration.message);
+    return false;
+  }
   input_.start = {calibration.camera, calibration.robot, calibration.camera_from_base,
                   calibration.camera_from_platform};
   noise_ = calibration.noise;

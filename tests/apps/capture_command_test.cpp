@@ -17,7 +17,8 @@ using testing::UnorderedElementsAre;
 
 class Capturing : public RigOnDisk {
  protected:
-  Capturing() : RigOnDisk(640) {}
+  Capturing() : Capturing(640) {}
+  explicit Capturing(int width) : RigOnDisk(width) {}
 
   json CaptureJson(std::vector<std::string> options, int exit_code) const {
     options.insert(options.end(), {"--format", "json"});
@@ -40,7 +41,13 @@ void ExpectSamePoses(const Session& a, const Session& b) {
 
 std::string Bytes0(const Session& session) { return Bytes(session.images.front().file); }
 
-TEST_F(Capturing, ProposesPosesForASessionThatCalibratesAndGoesOnTheSameAfterAnEnd) {
+// In images of full size nearly every edge in sight is measured, whatever the noise: what is proposed depends
+// on little else than on where the robot has been.
+class CapturingAtFullSize : public Capturing {
+ protected:
+  CapturingAtFullSize() : Capturing(1280) {}
+};
+TEST_F(CapturingAtFullSize, ProposesPosesForASessionThatCalibratesAndGoesOnTheSameAfterAnEnd) {
   const json whole = CaptureJson({"--count", "10"}, kExitSuccess);
   EXPECT_EQ(whole.at("status"), "complete");
   EXPECT_EQ(whole.at("images"), 10);
@@ -48,7 +55,7 @@ TEST_F(Capturing, ProposesPosesForASessionThatCalibratesAndGoesOnTheSameAfterAnE
   EXPECT_TRUE(whole.at("taken").at(0).at("expected_sigma").at("position_m").is_null());
   const double expected_m = whole.at("expected_sigma").at("position_m");
   EXPECT_GT(expected_m, 1e-5);
-  EXPECT_LT(expected_m, 2e-3);
+  EXPECT_LT(expected_m, 5e-4);
   std::filesystem::rename(session(), elsewhere());
   EXPECT_EQ(CaptureJson({"--count", "5"}, kExitSuccess).at("images"), 5);
   const std::string first = Bytes0(ReadSession(session()));
@@ -183,7 +190,7 @@ TEST_F(Simulating, WritesASessionThatCalibratesTowardsTheTruthBesideIt) {
 }
 
 TEST_F(Simulating, SaysOfEachImageWhatIsTrue) {
-  ASSERT_EQ(Simulate({"--images", "3", "--width", "320", "--height", "240"}).exit_code, kExitSuccess);
+  ASSERT_EQ(Simulate({"--images", "3", "--width", "800", "--height", "480"}).exit_code, kExitSuccess);
   const Session session = ReadSession(out());
   const SimulatedTruth simulated = ReadTruth(out() / "truth.yaml");
   const RenderedTruth truth = ReadRenderedTruth(out() / "truth.json");
@@ -195,15 +202,15 @@ TEST_F(Simulating, SaysOfEachImageWhatIsTrue) {
     EXPECT_LT((readings_m - session.images[i].joint_readings_m).cwiseAbs().maxCoeff(), 1.2e-4);
     const auto image = ReadGrayImage(session.images[i].file);
     ASSERT_TRUE(image);
-    EXPECT_EQ(image->width, 320);
-    EXPECT_EQ(image->height, 240);
+    EXPECT_EQ(image->width, 800);
+    EXPECT_EQ(image->height, 480);
   }
   EXPECT_EQ(simulated.drawing_robot.value(), out() / "robot.yaml");
   EXPECT_EQ(session.camera.distortion, Distortion::Zero());
 }
 
 TEST_F(Simulating, ReplacesAnEarlierSimulationAndIsTheSameForTheSameSeed) {
-  ASSERT_EQ(Simulate({"--images", "2", "--width", "320"}).exit_code, kExitSuccess);
+  ASSERT_EQ(Simulate({"--images", "2", "--width", "800"}).exit_code, kExitSuccess);
   const std::string image = Bytes(out() / "images" / "001.png"), truth = Bytes(out() / "truth.yaml");
   ASSERT_EQ(Simulate({"--images", "0", "--seed", "5"}).exit_code, kExitSuccess);
   EXPECT_THAT(
@@ -215,13 +222,13 @@ TEST_F(Simulating, ReplacesAnEarlierSimulationAndIsTheSameForTheSameSeed) {
       }(),
       UnorderedElementsAre("truth.yaml", "robot.yaml", "camera.yaml"));
   EXPECT_NE(Bytes(out() / "truth.yaml"), truth);
-  ASSERT_EQ(Simulate({"--images", "2", "--width", "320"}).exit_code, kExitSuccess);
+  ASSERT_EQ(Simulate({"--images", "2", "--width", "800"}).exit_code, kExitSuccess);
   EXPECT_EQ(Bytes(out() / "images" / "001.png"), image);
   EXPECT_EQ(Bytes(out() / "truth.yaml"), truth);
 }
 
 TEST_F(Simulating, TakesARigThatThereIsWithItsPapers) {
-  ASSERT_EQ(Simulate({"--images", "0", "--width", "320"}).exit_code, kExitSuccess);
+  ASSERT_EQ(Simulate({"--images", "0", "--width", "800"}).exit_code, kExitSuccess);
   const std::filesystem::path other = folder_.path() / "other";
   const ProgramRun run =
       RunLegible({"simulate", out() / "truth.yaml", "--images", "2", "--out", other.string()});

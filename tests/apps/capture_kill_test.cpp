@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kKills = 200;
-constexpr int kPoses = 30;
+constexpr int kPoses = 15;
 
 // The program, its output thrown away.
 class Process {
@@ -163,7 +163,7 @@ class CaptureKilled : public RigOnDisk {
 
 class CaptureOfPosesKilled : public CaptureKilled {
  protected:
-  CaptureOfPosesKilled() : CaptureKilled(160) {}
+  CaptureOfPosesKilled() : CaptureKilled(96) {}
 };
 TEST_F(CaptureOfPosesKilled, LeavesASessionWithAllItsImages) {
   KillRuns({"--poses", WritePoses(kPoses)}, kPoses, kKills - 20);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "datasets/simulation_file.h"
+#include "datasets/synthetic_session.h"
 #include "tests/apps/program_fixture.h"
 
 namespace legible {
