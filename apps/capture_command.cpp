@@ -43,6 +43,7 @@ class CaptureLines {
   void Rejected(const RejectedPose& pose) {
     Keep(fmt::format("legible: warning: a pose for {} is passed over: {}", pose.name, pose.reason));
   }
+  void Warned(const std::string& sentence) { Keep("legible: warning: " + sentence); }
   void Clear() { progress_.Clear(); }
 
  private:
@@ -81,7 +82,8 @@ int RunCapture(const CaptureSettings& settings, const Console& console) {
   CaptureLines lines(console);
   const CaptureListener listener{[&](const std::string& what) { lines.Doing(what); },
                                  [&](const CapturedImage& image) { lines.Captured(image); },
-                                 [&](const RejectedPose& pose) { lines.Rejected(pose); }};
+                                 [&](const RejectedPose& pose) { lines.Rejected(pose); },
+                                 [&](const std::string& sentence) { lines.Warned(sentence); }};
   CaptureRun run;
   try {
     lines.Doing("looking for poses");

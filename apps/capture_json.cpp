@@ -48,6 +48,8 @@ Json ImageJson(const CapturedImage& image) {
 Json CaptureJson(const PreparedCapture& prepared, const CaptureRun& run) {
   Json taken = Json::array(), rejected = Json::array();
   for (const CapturedImage& image : run.images) taken.push_back(ImageJson(image));
+  std::vector<std::string> warnings = prepared.warnings;
+  warnings.insert(warnings.end(), run.warnings.begin(), run.warnings.end());
   for (const RejectedPose& pose : run.rejected)
     rejected.push_back({{"name", pose.name},
                         {"base_from_platform", PoseJson(pose.base_from_platform)},
@@ -60,7 +62,7 @@ Json CaptureJson(const PreparedCapture& prepared, const CaptureRun& run) {
           {"taken", taken},
           {"rejected", rejected},
           {"rig_time_s", run.rig_time_s},
-          {"warnings", prepared.warnings},
+          {"warnings", warnings},
           {"session", std::filesystem::absolute(prepared.settings.out).lexically_normal().string()},
           {"rig", prepared.settings.rig},
           {"program_version", ProgramVersion()}};

@@ -34,7 +34,8 @@ class Capturer {
         rig_(*prepared.rig.rig),
         growing_(*prepared.session),
         listener_(listener),
-        outlook_(growing_.session(), {static_cast<std::uint64_t>(settings_.seed), settings_.threads}) {
+        outlook_(growing_.session(),
+                 {!settings_.poses, static_cast<std::uint64_t>(settings_.seed), settings_.threads}) {
     run_.images_before = static_cast<int>(growing_.session().images.size());
     run_.expected = outlook_.Expected();
     drive_.limits.speed_limit_m_per_s = settings_.speed_limit_m_per_s;
@@ -81,13 +82,18 @@ class Capturer {
   bool IsDone() {
     const auto& sigma_m = run_.expected.position_m;
     if (settings_.until_m && sigma_m && *sigma_m <= *settings_.until_m)
-      End(true, fmt::format("{} of predicted positions are expected to be within {:.4g} mm, as asked for",
-                            "σ", 1e3 * *settings_.until_m));
+      End(true, fmt::format("σ of predicted positions is expected to be {:.4g} mm, {:.4g} mm were asked for",
+                            1e3 * *sigma_m, 1e3 * *settings_.until_m));
     else if (!settings_.poses && Count() >= Limit())
-      End(settings_.count || !settings_.until_m,
-          fmt::format("the session has {}", Plural(Count(), "image")) +
-              (settings_.count || !settings_.until_m ? std::string() : ", and " + SigmaText()));
+      EndByCount();
     return !run_.reason.empty();
+  }
+
+  // Where a sigma alone was asked for, the usual number of images is only how long that is tried.
+  void EndByCount() {
+    const bool is_complete = settings_.count || !settings_.until_m;
+    const std::string images = fmt::format("the session has {}", Plural(Count(), "image"));
+    End(is_complete, is_complete ? images : images + ", and " + SigmaText());
   }
 
   std::string SigmaText() const {
@@ -161,17 +167,26 @@ class Capturer {
                   true);
     const Sighting sighting = outlook_.Look(target.name, shot.image.image, shot.readings.joint_readings_m);
     times.look_s = watch.Lap();
-    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false);
+    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false, false);
     growing_.Add(target.name, EncodePng(shot.image.image), shot.readings.joint_readings_m);
     times.store_s = watch.Lap();
     last_ = shot;
     outlook_.Add(growing_.session(), sighting);
+    Warn(outlook_.trouble());
     run_.expected = outlook_.Expected();
     times.outlook_s = watch.Lap();
     run_.images.push_back({target.name, target.base_from_platform, shot.readings.joint_readings_m,
                            sighting.edges, sighting.unusable, run_.expected, times});
     listener_.captured(run_.images.back());
     return true;
+  }
+
+  // Once.
+  void Warn(const std::string& sentence) {
+    if (sentence.empty() || sentence == last_warning_) return;
+    last_warning_ = sentence;
+    run_.warnings.push_back(sentence);
+    listener_.warned(sentence);
   }
 
   bool DriveTo(const Target& target) {
@@ -186,7 +201,7 @@ class Capturer {
   }
 
   // Returns false, for whoever failed.
-  bool Fail(const Target& target, const std::string& reason, bool is_hopeless) {
+  bool Fail(const Target& target, const std::string& reason, bool is_hopeless, bool for_good = true) {
     if (interruption_.HasCome()) {
       End(false, "stopped by the user");
       return false;
@@ -195,7 +210,7 @@ class Capturer {
       End(false, reason);
       return false;
     }
-    outlook_.Reject(target.base_from_platform);
+    outlook_.Reject(target.base_from_platform, for_good);
     missing_.push_back(target.name);
     run_.rejected.push_back({target.name, target.base_from_platform, reason});
     listener_.rejected(run_.rejected.back());
@@ -221,6 +236,7 @@ class Capturer {
   size_t next_pose_ = 0;
   int failures_ = 0;
   std::vector<std::string> missing_;
+  std::string last_warning_;
   std::optional<ImageAtRest> last_;
   CaptureRun run_;
 };

@@ -54,6 +54,7 @@ struct CaptureRun {
   int images_before = 0;  // of the session that was resumed
   std::vector<CapturedImage> images;
   std::vector<RejectedPose> rejected;
+  std::vector<std::string> warnings;
   ExpectedSigma expected;  // in the end
   bool is_complete = false;
   std::string reason;  // why it ended, in words
@@ -65,6 +66,7 @@ struct CaptureListener {
   std::function<void(const std::string&)> doing;
   std::function<void(const CapturedImage&)> captured;
   std::function<void(const RejectedPose&)> rejected;
+  std::function<void(const std::string&)> warned;
 };
 
 // Drives, takes and stores until there is what was asked for, or it cannot go on. What has been stored stays.

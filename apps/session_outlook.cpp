@@ -1,5 +1,7 @@
 #include "apps/session_outlook.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -56,9 +58,9 @@ Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
   if (input_.start) {
     model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
   } else {
-    sighting.rough =
-        Measure(model, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), kTapePoseRange_px))
-            .observation;
+    sighting.rough = Measure(model, name, image, joint_readings_m,
+                             FirstLookEdges(LegEdgeOptions(), TapePoseRange_px(input_.camera)))
+                         .observation;
     model = Scouted(*sighting.rough);
   }
   Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
@@ -96,20 +98,32 @@ RigModel SessionOutlook::Scouted(const ImageObservation& one_more) const {
 void SessionOutlook::Add(const Session& session, const Sighting& sighting) {
   const size_t count = session.images.size();
   const bool is_due = std::find(kCalibrateAt.begin(), kCalibrateAt.end(), count) != kCalibrateAt.end();
-  if (is_due && Calibrate(session, count)) return;
+  if (is_due && tells_something_ && Calibrate(session, count)) return;
   Take(sighting);
 }
 
-void SessionOutlook::Reject(const Rigid3& base_from_platform) {
-  rejected_.push_back(base_from_platform);
+void SessionOutlook::Reject(const Rigid3& base_from_platform, bool for_good) {
+  (for_good ? rejected_ : rejected_for_now_).push_back(base_from_platform);
   proposer_->Reject(base_from_platform);
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
   if (sighting.rough && scouts_.size() < kMostScouts) scouts_.push_back(*sighting.rough);
-  if (!sighting.unusable.empty()) return;
+  if (sighting.unusable.empty()) {
+    observations_.push_back(sighting.observation);
+    AddToProposer(sighting.observation);
+  }
+  // A further first look sees better.
+  if (!input_.start && !rejected_for_now_.empty()) {
+    Propose({});
+    for (const ImageObservation& observation : observations_) AddToProposer(observation);
+  }
+}
+
+void SessionOutlook::AddToProposer(const ImageObservation& observation) {
   try {
-    proposer_->Add(sighting.observation);
+    proposer_->Add(observation);
+    tells_something_ = true;
   } catch (const std::runtime_error&) {
     // The model cannot produce these edges at all: nothing can be said of what they are worth.
   } catch (const std::invalid_argument&) {
@@ -120,6 +134,7 @@ void SessionOutlook::Propose(std::vector<ImageObservation> images) {
   PoseProposalOptions options;
   options.candidates.seed = options_.seed;
   options.candidates.least_edges = kLeastEdges;
+  if (!options_.proposes) options.candidates.count = 1;
   options.threads = options_.threads;
   options.noise = noise_;
   LegCalibrationInput input = input_;
@@ -127,6 +142,7 @@ void SessionOutlook::Propose(std::vector<ImageObservation> images) {
   LegCalibrationOptions estimation;
   estimation.threads = options_.threads;
   proposer_ = std::make_unique<PoseProposer>(std::move(input), estimation, options);
+  rejected_for_now_.clear();
   for (const Rigid3& pose : rejected_) proposer_->Reject(pose);
 }
 
@@ -140,7 +156,11 @@ bool SessionOutlook::Calibrate(const Session& session, size_t images) {
   options.threads = options.estimation.threads = options_.threads;
   const SessionCalibration found = CalibrateSession(first, options);
   const LegCalibration& calibration = found.calibration;
-  if (calibration.status != CalibrationStatus::kConverged) return false;
+  trouble_.clear();
+  if (calibration.status != CalibrationStatus::kConverged) {
+    trouble_ = fmt::format("the first {} images lead to no model yet: {}", images, calibration.message);
+    return false;
+  }
   input_.start = {calibration.camera, calibration.robot, calibration.camera_from_base,
                   calibration.camera_from_platform};
   noise_ = calibration.noise;
@@ -149,6 +169,7 @@ bool SessionOutlook::Calibrate(const Session& session, size_t images) {
     observations.push_back(
         ToObservation(first.images[i].name, first.images[i].joint_readings_m, found.images[i].edges));
   images_in_model_ = static_cast<int>(images);
+  tells_something_ = true;
   Propose(std::move(observations));
   return true;
 }

@@ -14,6 +14,7 @@
 namespace legible {
 
 struct OutlookOptions {
+  bool proposes = true;    // false: poses come from elsewhere, and Next has hardly any
   std::uint64_t seed = 1;  // of the candidates for poses
   int threads = 2;
 };
@@ -41,13 +42,15 @@ class SessionOutlook {
   void Add(const Session& session, const Sighting& sighting);
 
   std::optional<PoseProposal> Next() const { return proposer_->Next(); }
-  // There it will not be sent (again).
-  void Reject(const Rigid3& base_from_platform);
+  // There it will not be sent (again); or, where it only showed nothing, not before legs are found otherwise.
+  void Reject(const Rigid3& base_from_platform, bool for_good);
 
   ExpectedSigma Expected() const { return proposer_->Expected(); }
   const PoseCandidates& candidates() const { return proposer_->candidates(); }
   // Images that the model was calibrated from; 0: it is the drawing's.
   int images_in_model() const { return images_in_model_; }
+  // Why the last attempt to calibrate failed; empty: it did not.
+  const std::string& trouble() const { return trouble_; }
 
  private:
   void Propose(std::vector<ImageObservation> images);
@@ -56,13 +59,17 @@ class SessionOutlook {
   RigModel Scouted(const ImageObservation& one_more) const;
   bool Calibrate(const Session& session, size_t images);
   void Take(const Sighting& sighting);
+  void AddToProposer(const ImageObservation& observation);
 
   OutlookOptions options_;
   LegCalibrationInput input_;  // start: the model
   EdgeNoise noise_;
   std::vector<ImageObservation> scouts_;
-  std::vector<Rigid3> rejected_;
+  std::vector<ImageObservation> observations_;  // by first looks
+  std::vector<Rigid3> rejected_, rejected_for_now_;
+  std::string trouble_;
   int images_in_model_ = 0;
+  bool tells_something_ = false;  // some image; else no model can come of them
   std::unique_ptr<PoseProposer> proposer_;
 };
 

@@ -11,8 +11,13 @@ constexpr double kGuessedFocalShare = 0.03;   // of the focal length
 constexpr double kGuessedCentreShare = 0.02;  // of the image width
 constexpr double kGuessedDistortion = 0.2;    // each coefficient
 constexpr double kUnknownLensBend_px = 12;
+constexpr double kTapePose_rad = 0.1, kLargestRange_px = 120;
 
 }  // namespace
+
+double TapePoseRange_px(const Camera& camera) {
+  return std::min(kLargestRange_px, kTapePose_rad * camera.fx_px);
+}
 
 LegEdgeOptions FirstLookEdges(const LegEdgeOptions& usual, double range_px) {
   LegEdgeOptions rough = usual;

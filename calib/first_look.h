@@ -7,8 +7,9 @@
 
 namespace legible {
 
-// How far off the legs may be where a tape measure placed the camera (3 cm, 3 degrees).
-inline constexpr double kTapePoseRange_px = 120;
+// How far off the legs may be in the image where a tape measure placed the camera (3 cm, 3 degrees).
+double TapePoseRange_px(const Camera& camera);
+
 // How far from its prediction an edge lies at most once the first look has succeeded.
 inline constexpr double kSearchAfterFirstLook_px = 5;
 

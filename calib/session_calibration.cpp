@@ -208,7 +208,8 @@ class SessionCalibrator {
       if (CanBeMeasured(i)) seen.push_back(i);
     const size_t scout_count = std::min(seen.size(), static_cast<size_t>(options_.scouts));
     for (size_t i = 0; i < scout_count; ++i) scouts.push_back(seen[i * seen.size() / scout_count]);
-    const double range_px = result_.first_pose_from == "camera.yaml" ? kTapePoseRange_px : kTagPoseRange_px;
+    const double range_px =
+        result_.first_pose_from == "camera.yaml" ? TapePoseRange_px(session_.camera) : kTagPoseRange_px;
     Measure("looking for the legs", scouts, FirstLookEdges(options_.edges, range_px));
     const LegCalibration scouted = FirstLook(Input(scouts), options_.estimation.hold, options_.threads);
     if (scouted.status == CalibrationStatus::kConverged)
