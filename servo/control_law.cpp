@@ -70,8 +70,9 @@ ImageErrors MeasureErrors(const Situation& now) {
       if (!seen || !goal) continue;
       for (const Eigen::Vector2d& end : goal->ends) {
         const LineOffset offset = OffsetAt(now.model, *seen, end);
+        const double goal_sigma_px = OffsetAt(now.model, *goal, end).sigma_px;
         edge2 += offset.offset_px * offset.offset_px;
-        edge_noise2 += offset.sigma_px * offset.sigma_px;
+        edge_noise2 += offset.sigma_px * offset.sigma_px + goal_sigma_px * goal_sigma_px;
         ++ends;
       }
     }
@@ -82,6 +83,8 @@ ImageErrors MeasureErrors(const Situation& now) {
         std::atan2(u.cross(*now.goal.directions[leg]).norm(), u.dot(*now.goal.directions[leg]));
     direction2 += angle * angle;
     direction_noise2 += DirectionCovariance(*edge_1, *edge_2).trace();
+    const auto& [goal_1, goal_2] = now.goal.edges[leg];
+    if (goal_1 && goal_2) direction_noise2 += DirectionCovariance(*goal_1, *goal_2).trace();
     ++legs;
   }
   return {Rms(edge2, ends), Rms(edge_noise2, ends), Rms(direction2, legs), Rms(direction_noise2, legs)};

@@ -1,5 +1,7 @@
 #include "tests/reproduction/lab_runs.h"
 
+#include <stdexcept>
+
 #include "core/rig/simulated_edges.h"
 
 namespace legible {
@@ -20,43 +22,52 @@ LawResult TrueErrors(const LabServo& servo, const Rigid3& end) {
   return EvaluateLaw(model, GoalAtPose(model, servo.true_goal), input, {});
 }
 
-}  // namespace
-
-SimulationOptions RoughRig(double edge_noise_px, std::uint64_t seed) {
+SimulationOptions RoughRig(const LabCase& lab_case, std::uint64_t seed) {
   SimulationOptions options;
-  options.edge_noise_px = edge_noise_px;
+  options.edge_noise_px = lab_case.edge_noise_px;
   options.seed = seed;
   options.drives.lag_s = 0.02;
   options.drives.speed_limit_m_per_s = 0.2;
+  if (!lab_case.has_friction) return options;
   options.drives.breakaway_speed_m_per_s = 2e-3;
   options.drives.sliding_loss_m_per_s = 1e-3;
   return options;
 }
 
-ServoOptions RoughServo(const ControlLawOptions& law) {
+ServoOptions RoughServo(const LabCase& lab_case) {
   ServoOptions options;
-  options.step.law = law;
+  options.step.law = lab_case.law;
   options.step.gain = {4, 0.8, 100};
   options.step.limits.speed_limit_m_per_s = 0.2;
+  if (lab_case.unsupervised_s > 0) {
+    options.supervision.tolerance = 1e-12;
+    options.supervision.stall_s = 2 * lab_case.unsupervised_s;
+    options.supervision.unanswered_m = 1;
+    options.supervision.timeout_s = lab_case.unsupervised_s;
+  }
   return options;
 }
 
-LabServo RoughLabServo(const LabRig& rig, const SimulationTruth& model, const ControlLawOptions& law,
-                       GoalKind kind, double edge_noise_px, std::uint64_t seed) {
+}  // namespace
+
+LabServo RoughLabServo(const LabRig& rig, const SimulationTruth& model, const LabCase& lab_case,
+                       std::uint64_t seed) {
   LabServo servo;
   servo.truth = rig.truth;
   servo.model = MakeServoModel(model.robot, model.camera, model.camera_from_base);
-  servo.simulation = RoughRig(edge_noise_px, seed);
+  servo.simulation = RoughRig(lab_case, seed);
   servo.simulation.start = PoseAt(rig.truth.robot, DeltaLabStart());
-  servo.options = RoughServo(law);
+  servo.options = RoughServo(lab_case);
   const Rigid3 drawn_goal = PoseAt(DesktopHexapod(), DeltaLabGoal());
-  if (kind == GoalKind::kPose) {
+  if (lab_case.goal == GoalKind::kPose) {
     servo.true_goal = InFramesOf(rig.truth.robot, DesktopHexapod(), drawn_goal);
     servo.goal = GoalAtPose(servo.model, drawn_goal);
   } else {
     servo.true_goal = PoseAt(rig.truth.robot, DeltaLabGoal());
-    const SeenEdges shown = ShownAt(rig.truth, model.camera, servo.true_goal, servo.simulation);
-    servo.goal = GoalFromEdges(servo.model, shown, drawn_goal);
+    SimulationOptions camera = servo.simulation;
+    camera.edge_noise_px = lab_case.goal_noise_px;
+    servo.goal =
+        GoalFromEdges(servo.model, ShownAt(rig.truth, model.camera, servo.true_goal, camera), drawn_goal);
   }
   return servo;
 }
@@ -77,6 +88,17 @@ LabOutcome OutcomeOf(const LabServo& servo, const LabRun& run) {
   const PathShape shape = ShapeOfPath(places_m, servo.true_goal.translation);
   outcome.deviation_share = shape.length_m > 0 ? shape.deviation_m / shape.length_m : 0;
   return outcome;
+}
+
+LabOutcome RunCase(const LabServo& servo) {
+  try {
+    DemandGoal(servo.goal, servo.options.step.law);
+  } catch (const std::invalid_argument& refusal) {
+    LabOutcome outcome;
+    outcome.reason = refusal.what();
+    return outcome;
+  }
+  return OutcomeOf(servo, RunInLab(servo));
 }
 
 }  // namespace legible

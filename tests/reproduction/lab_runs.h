@@ -10,25 +10,30 @@
 
 namespace legible {
 
-// Drives that lag by 20 ms; a joint at rest moves when it is to go 2 mm/s, one that moves loses 1 mm/s, both
-// times 0.5 to 1.5 with the joint's length. Readings to 1 um.
-SimulationOptions RoughRig(double edge_noise_px, std::uint64_t seed);
-
-// The law with an adaptive gain, as the paper has it "low at init, high near convergence": from about 1/s at
-// the start to 4/s at the goal.
-ServoOptions RoughServo(const ControlLawOptions& law);
-
 // What the law is told of its goal: an image that this camera took of the robot there, or the pose alone.
 enum class GoalKind { kImage, kPose };
 
-// From all joints at 375 mm of the true robot. A pose as goal is that of the drawing's readings, in the
-// drawing's frames: the true goal is where the true robot's frames have the same.
-LabServo RoughLabServo(const LabRig& rig, const SimulationTruth& model, const ControlLawOptions& law,
-                       GoalKind kind, double edge_noise_px, std::uint64_t seed);
+struct LabCase {
+  ControlLawOptions law;
+  GoalKind goal = GoalKind::kImage;
+  double edge_noise_px = 0.3;
+  double goal_noise_px = 0.3;  // in the image of the goal
+  // A joint at rest moves when it is to go 2 mm/s, one that moves loses 1 mm/s, both times 0.5 to 1.5 with
+  // the joint's length.
+  bool has_friction = true;
+  double unsupervised_s = 0;  // over 0: nothing ends the run but this time
+};
+
+// From all joints at 375 mm of the true robot, with drives that lag by 20 ms and readings to 1 um. The gain
+// is adaptive, as in the paper "low at init, high near convergence": from about 1/s at the start to 4/s at
+// the goal. A pose as goal is that of the drawing's readings, in the drawing's frames: the true goal is where
+// the true robot's frames have the same.
+LabServo RoughLabServo(const LabRig& rig, const SimulationTruth& model, const LabCase& lab_case,
+                       std::uint64_t seed);
 
 // How a run ended. Errors are of where the true robot came to rest, without noise.
 struct LabOutcome {
-  ServoEnd end = ServoEnd::kRunning;
+  ServoEnd end = ServoEnd::kRunning;  // running: it was not even begun
   std::string reason;
   double time_s = 0;
   double edge_error_px = 0, direction_error_rad = 0;
@@ -36,5 +41,8 @@ struct LabOutcome {
   double deviation_share = 0;  // of the path of the platform's origin from a straight line, by its length
 };
 LabOutcome OutcomeOf(const LabServo& servo, const LabRun& run);
+
+// Runs it, unless the goal is not fit for the law, as the program would say before it moves anything.
+LabOutcome RunCase(const LabServo& servo);
 
 }  // namespace legible

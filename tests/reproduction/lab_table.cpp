@@ -25,13 +25,15 @@ const std::vector<Column> kErrors = {
 
 std::vector<double> Values(const LabRow& row, double LabOutcome::*field) {
   std::vector<double> values;
-  for (const LabOutcome& outcome : row.outcomes) values.push_back(outcome.*field);
+  for (const LabOutcome& outcome : row.outcomes)
+    if (outcome.end != ServoEnd::kRunning) values.push_back(outcome.*field);
   return values;
 }
 
 std::map<std::string, int> Ends(const LabRow& row) {
   std::map<std::string, int> ends;
-  for (const LabOutcome& outcome : row.outcomes) ++ends[ToString(outcome.end)];
+  for (const LabOutcome& outcome : row.outcomes)
+    ++ends[outcome.end == ServoEnd::kRunning ? "refused" : ToString(outcome.end)];
   return ends;
 }
 

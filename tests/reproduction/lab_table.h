@@ -18,7 +18,7 @@ struct LabRow {
 double QuantileOf(std::vector<double> values, double share);
 double MedianOf(const LabRow& row, double LabOutcome::*field);
 
-// Columns: how runs ended; median and 90 % of the errors; path and time, medians.
+// Columns: how runs ended ("refused": not begun); median · 90 % of the runs that were begun.
 std::string Markdown(const std::vector<LabRow>& rows);
 nlohmann::json Json(const std::vector<LabRow>& rows);
 

@@ -79,13 +79,13 @@ ControlLawOptions PoseLaw(PoseSource source) {
   return law;
 }
 
+enum class Belief { kDrawing, kCalibrated, kTruth };
+
 // One row of a table before it is run.
 struct Plan {
   std::string label;
-  ControlLawOptions law;
-  bool is_calibrated;
-  GoalKind kind;
-  double edge_noise_px;
+  Belief belief = Belief::kDrawing;
+  LabCase lab_case;
 };
 
 struct Rigs {
@@ -104,8 +104,11 @@ Rigs DrawRigs() {
 }
 
 LabServo ServoOf(const Plan& plan, const Rigs& rigs, size_t at) {
-  const SimulationTruth& model = plan.is_calibrated ? rigs.calibrated[at] : rigs.rigs[at].nominal;
-  return RoughLabServo(rigs.rigs[at], model, plan.law, plan.kind, plan.edge_noise_px, at + 1);
+  const LabRig& rig = rigs.rigs[at];
+  const SimulationTruth& model = plan.belief == Belief::kDrawing      ? rig.nominal
+                                 : plan.belief == Belief::kCalibrated ? rigs.calibrated[at]
+                                                                      : rig.truth;
+  return RoughLabServo(rig, model, plan.lab_case, at + 1);
 }
 
 std::vector<LabRow> RunPlans(const std::vector<Plan>& plans, const Rigs& rigs) {
@@ -114,8 +117,7 @@ std::vector<LabRow> RunPlans(const std::vector<Plan>& plans, const Rigs& rigs) {
   tbb::parallel_for(0, kRuns, [&](int i) {
     const auto at = static_cast<size_t>(i);
     for (size_t row = 0; row < plans.size(); ++row) {
-      const LabServo servo = ServoOf(plans[row], rigs, at);
-      rows[row].outcomes[at] = OutcomeOf(servo, RunInLab(servo));
+      rows[row].outcomes[at] = RunCase(ServoOf(plans[row], rigs, at));
     }
   });
   return rows;
@@ -124,14 +126,49 @@ std::vector<LabRow> RunPlans(const std::vector<Plan>& plans, const Rigs& rigs) {
 std::vector<Plan> NoisyPlans(double edge_noise_px) {
   const auto kSeen = DirectionSource::kEdges, kModel = DirectionSource::kModel;
   const auto kEdges = ControlMode::kEdges, kDirections = ControlMode::kDirections;
-  const auto plan = [&](const std::string& label, const ControlLawOptions& law) {
-    return Plan{label, law, false, GoalKind::kImage, edge_noise_px};
+  std::vector<Plan> plans;
+  const auto add = [&](const std::string& label, const ControlLawOptions& law) {
+    Plan plan{label, Belief::kDrawing, {}};
+    plan.lab_case.law = law;
+    plan.lab_case.edge_noise_px = plan.lab_case.goal_noise_px = edge_noise_px;
+    plans.push_back(plan);
   };
-  return {plan("directions, as in the paper", Law(kDirections, kSeen, false)),
-          plan("edges, as in the paper", Law(kEdges, kSeen, false)),
-          plan("directions, weighted", Law(kDirections, kModel, true)),
-          plan("edges, interaction by the model's directions", Law(kEdges, kModel, false)),
-          plan("edges, the same and weighted", Law(kEdges, kModel, true))};
+  add("directions, as in the paper", PaperLaw(kDirections));
+  add("edges, as in the paper", PaperLaw(kEdges));
+  add("directions, interaction by the model's", Law(kDirections, kModel, false));
+  add("edges, interaction by the model's directions", Law(kEdges, kModel, false));
+  add("directions, as in the paper but weighted", Law(kDirections, kSeen, true));
+  add("edges, as in the paper but weighted", Law(kEdges, kSeen, true));
+  add("directions, both", Law(kDirections, kModel, true));
+  add("edges, both", Law(kEdges, kModel, true));
+  return plans;
+}
+
+// Both laws of the paper with one disturbance less at a time; nothing ends them but the time.
+std::vector<Plan> LimitPlans() {
+  std::vector<Plan> plans;
+  for (const ControlMode mode : {ControlMode::kDirections, ControlMode::kEdges}) {
+    Plan plan{fmt::format("{}, 15 s", ToString(mode)), Belief::kDrawing, {}};
+    plan.lab_case.law = PaperLaw(mode);
+    plan.lab_case.unsupervised_s = 15;
+    plans.push_back(plan);
+    Plan less = plan;
+    less.label = fmt::format("{}, without friction", ToString(mode));
+    less.lab_case.has_friction = false;
+    plans.push_back(less);
+    less = plan;
+    less.label = fmt::format("{}, perfect model", ToString(mode));
+    less.belief = Belief::kTruth;
+    plans.push_back(less);
+    less = plan;
+    less.label = fmt::format("{}, goal without noise", ToString(mode));
+    less.lab_case.goal_noise_px = 0;
+    plans.push_back(less);
+    less.label = fmt::format("{}, no noise at all", ToString(mode));
+    less.lab_case.edge_noise_px = 0;
+    plans.push_back(less);
+  }
+  return plans;
 }
 
 std::string RatioText(const std::vector<LabRow>& rows) {
@@ -146,11 +183,10 @@ std::string RatioText(const std::vector<LabRow>& rows) {
 
 // The curves of one rig; nothing ends them but the time.
 nlohmann::json NoisyCurves(ControlMode mode, const Rigs& rigs) {
-  constexpr double kDuration_s = 10, kNoise_px = 0.3;
-  LabServo servo = ServoOf({"", PaperLaw(mode), false, GoalKind::kImage, kNoise_px}, rigs, 0);
-  servo.options.supervision.tolerance = 1e-12;
-  servo.options.supervision.stall_s = 2 * kDuration_s;
-  servo.options.supervision.timeout_s = kDuration_s;
+  Plan plan;
+  plan.lab_case.law = PaperLaw(mode);
+  plan.lab_case.unsupervised_s = 10;
+  const LabServo servo = ServoOf(plan, rigs, 0);
   return ErrorCurves(servo, RunInLab(servo));
 }
 
@@ -161,9 +197,13 @@ std::vector<Plan> CalibrationPlans() {
   const ControlLawOptions edges = Law(ControlMode::kEdges, DirectionSource::kModel, true),
                           directions = Law(ControlMode::kDirections, DirectionSource::kModel, true);
   std::vector<Plan> plans;
-  const auto add = [&](const std::string& label, const ControlLawOptions& law, GoalKind kind) {
-    plans.push_back({label + "; drawing", law, false, kind, kNoise_px});
-    plans.push_back({label + "; calibrated", law, true, kind, kNoise_px});
+  const auto add = [&](const std::string& label, const ControlLawOptions& law, GoalKind goal) {
+    LabCase lab_case;
+    lab_case.law = law;
+    lab_case.goal = goal;
+    lab_case.edge_noise_px = lab_case.goal_noise_px = kNoise_px;
+    plans.push_back({label + "; drawing", Belief::kDrawing, lab_case});
+    plans.push_back({label + "; calibrated", Belief::kCalibrated, lab_case});
   };
   add("pose as goal, joints by forward kinematics", PoseLaw(PoseSource::kReadings), GoalKind::kPose);
   add("pose as goal, pose by the edges", PoseLaw(PoseSource::kEdges), GoalKind::kPose);
@@ -221,6 +261,12 @@ void ReproduceNoisy(const Writer& writer, const Rigs& rigs) {
   }
 }
 
+void ReproduceLimits(const Writer& writer, const Rigs& rigs) {
+  const std::vector<LabRow> rows = RunPlans(LimitPlans(), rigs);
+  writer.Table("limits", "One disturbance less, edge noise 0.3 px", Markdown(rows));
+  writer.Json("limits", Json(rows));
+}
+
 void ReproduceCalibration(const Writer& writer, const Rigs& rigs) {
   const std::vector<LabRow> rows = RunPlans(CalibrationPlans(), rigs);
   writer.Table("calibration", "What calibration buys", Markdown(rows));
@@ -232,6 +278,7 @@ int Main(const std::filesystem::path& folder) {
   ReproducePerfect(writer);
   const Rigs rigs = DrawRigs();
   ReproduceNoisy(writer, rigs);
+  ReproduceLimits(writer, rigs);
   ReproduceCalibration(writer, rigs);
   return 0;
 }

@@ -276,6 +276,27 @@ TEST(ControlLaw, KnowsWhatNoiseMakesOfItsWayAndError) {
   }
 }
 
+// A goal that was shown has noise of its own, for good.
+TEST(ControlLaw, KnowsWhatNoiseOfAShownGoalMakesOfItsError) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections}) {
+    SCOPED_TRACE(ToString(mode));
+    const ServoScene scene = RandomScene(generator);
+    SeenEdges exact = EdgesAt(scene.model, scene.pose);
+    GiveCovariances(exact, 3e-5, generator);
+    constexpr int kDraws = 1000;
+    double squares = 0, predicted = 0;
+    for (int n = 0; n < kDraws; ++n) {
+      const Task task{scene, GoalFromEdges(scene.model, Moved(exact, generator), scene.pose)};
+      const LawResult result =
+          EvaluateLaw(scene.model, task.goal, task.Input(Moved(exact, generator)), Law(mode));
+      squares += result.error * result.error;
+      predicted += result.error_noise * result.error_noise;
+    }
+    EXPECT_NEAR(squares / predicted, 1, 5 * std::sqrt(2.0 / (6 * kDraws)));
+  }
+}
+
 TEST(PoseLaw, KnowsWhatNoiseMakesOfItsError) {
   std::mt19937_64 generator = TestGenerator();
   const ServoScene scene = RandomScene(generator);
