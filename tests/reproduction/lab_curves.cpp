@@ -51,7 +51,11 @@ nlohmann::json SideView(const LabServo& servo, const LabRun& run) {
                        {"rear_mm", Middle_mm(robot, pose, 2, 5)},
                        {"front_mm", Middle_mm(robot, pose, 0, 1)}});
   }
-  return {{"goal_mm", InPlane_mm(servo.true_goal.translation)}, {"moments", moments}};
+  Json legs = Json::array();
+  for (const Leg& leg : robot.legs)
+    legs.push_back({InPlane_mm(leg.base_joint_m), InPlane_mm(*servo.simulation.start * leg.platform_joint_m),
+                    InPlane_mm(servo.true_goal * leg.platform_joint_m)});
+  return {{"goal_mm", InPlane_mm(servo.true_goal.translation)}, {"legs_mm", legs}, {"moments", moments}};
 }
 
 nlohmann::json ErrorCurves(const LabServo& servo, const LabRun& run) {

@@ -1,5 +1,6 @@
 #include "tests/reproduction/lab_runs.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/rig/simulated_edges.h"
@@ -43,9 +44,22 @@ ServoOptions RoughServo(const LabCase& lab_case) {
     options.supervision.tolerance = 1e-12;
     options.supervision.stall_s = 2 * lab_case.unsupervised_s;
     options.supervision.unanswered_m = 1;
+    options.supervision.growth_factor = 1e6;
     options.supervision.timeout_s = lab_case.unsupervised_s;
   }
   return options;
+}
+
+// After which the platform's origin stays within a twentieth of its first distance from where it came to
+// rest.
+double SettlingTime_s(const LabRun& run) {
+  const auto distance_m = [&](const LabMoment& moment) {
+    return (moment.true_base_from_platform.translation - run.true_end.translation).norm();
+  };
+  const double near_m = 0.05 * distance_m(run.moments.front());
+  const auto last_far = std::find_if(run.moments.rbegin(), run.moments.rend(),
+                                     [&](const LabMoment& moment) { return distance_m(moment) > near_m; });
+  return last_far == run.moments.rend() ? 0 : last_far->time_s;
 }
 
 }  // namespace
@@ -77,6 +91,7 @@ LabOutcome OutcomeOf(const LabServo& servo, const LabRun& run) {
   outcome.end = run.run.end;
   outcome.reason = run.run.reason;
   outcome.time_s = run.run.time_s;
+  outcome.settled_s = SettlingTime_s(run);
   const LawResult errors = TrueErrors(servo, run.true_end);
   outcome.edge_error_px = errors.edge_error_px;
   outcome.direction_error_rad = errors.direction_error_rad;

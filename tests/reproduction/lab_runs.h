@@ -35,7 +35,8 @@ LabServo RoughLabServo(const LabRig& rig, const SimulationTruth& model, const La
 struct LabOutcome {
   ServoEnd end = ServoEnd::kRunning;  // running: it was not even begun
   std::string reason;
-  double time_s = 0;
+  double time_s = 0;     // when it ended, and
+  double settled_s = 0;  // since when the platform was within 5 % of its way from where it came to rest
   double edge_error_px = 0, direction_error_rad = 0;
   double position_m = 0, rotation_rad = 0;
   double deviation_share = 0;  // of the path of the platform's origin from a straight line, by its length

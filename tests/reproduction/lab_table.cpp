@@ -19,8 +19,9 @@ const std::vector<Column> kErrors = {
     {"direction_error_mrad", "directions, mrad", &LabOutcome::direction_error_rad, 1e-3, 2},
     {"position_mm", "position, mm", &LabOutcome::position_m, 1e-3, 2},
     {"rotation_mrad", "rotation, mrad", &LabOutcome::rotation_rad, 1e-3, 2},
-    {"path_deviation_percent", "path off a straight line, %", &LabOutcome::deviation_share, 1e-2, 1},
-    {"time_s", "time, s", &LabOutcome::time_s, 1, 1},
+    {"path_deviation_percent", "path off straight, %", &LabOutcome::deviation_share, 1e-2, 1},
+    {"settled_s", "settled, s", &LabOutcome::settled_s, 1, 1},
+    {"time_s", "ended, s", &LabOutcome::time_s, 1, 1},
 };
 
 std::vector<double> Values(const LabRow& row, double LabOutcome::*field) {
@@ -30,10 +31,18 @@ std::vector<double> Values(const LabRow& row, double LabOutcome::*field) {
   return values;
 }
 
+// How it ended, a stall with what the supervisor made of it.
+std::string EndOf(const LabOutcome& outcome) {
+  const auto says = [&](const char* words) { return outcome.reason.find(words) != std::string::npos; };
+  if (outcome.end == ServoEnd::kRunning) return "refused";
+  if (outcome.end != ServoEnd::kStalled) return ToString(outcome.end);
+  if (says("does not follow")) return "stalled by friction";
+  return says("held back") ? "stalled at a joint range" : "stalled";
+}
+
 std::map<std::string, int> Ends(const LabRow& row) {
   std::map<std::string, int> ends;
-  for (const LabOutcome& outcome : row.outcomes)
-    ++ends[outcome.end == ServoEnd::kRunning ? "refused" : ToString(outcome.end)];
+  for (const LabOutcome& outcome : row.outcomes) ++ends[EndOf(outcome)];
   return ends;
 }
 
