@@ -10,10 +10,10 @@ export CCACHE_BASEDIR := $(CURDIR)
 export CCACHE_NOHASHDIR := true
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench sanitize format check-format tidy clean packages packages-for-checks
+.PHONY: help demo test bench reproduction sanitize format check-format tidy clean packages packages-for-checks
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 demo: packages ## on a simulated rig: hold a session, calibrate, judge, servo; show the reports
 	cmake --preset release
@@ -29,6 +29,11 @@ bench: packages ## run the benchmarks: tables, and build/bench/*.json
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS) --target tests/bench/all
 	scripts/run_benchmarks.sh
+
+reproduction: packages ## servo as the paper did: the tables and figures of docs/reproduction.md
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS) --target tests/reproduction/all
+	scripts/run_reproduction.sh
 
 sanitize: packages ## run the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset sanitize

@@ -40,10 +40,10 @@ json EdgeErrorJson(const ServoModel& model, const std::optional<SeenEdge>& seen,
   return std::sqrt(EdgeError(model, *seen, *goal).squares);
 }
 
-json DirectionErrorJson(const std::array<std::optional<SeenEdge>, 2>& seen,
-                        const std::optional<Eigen::Vector3d>& goal) {
-  if (!seen[0] || !seen[1] || !goal) return nullptr;
-  return std::sqrt(DirectionError(*seen[0], *seen[1], *goal).squares);
+json DirectionErrorJson(const ServoGoal& goal, size_t leg,
+                        const std::array<std::optional<SeenEdge>, 2>& seen) {
+  if (!seen[0] || !seen[1] || !goal.directions[leg]) return nullptr;
+  return std::sqrt(DirectionError(goal, *seen[0], *seen[1]).squares);
 }
 
 // Columns of numbers, one entry a cycle.
@@ -58,7 +58,7 @@ class CycleColumns {
     for (size_t leg = 0; leg < kLegCount; ++leg) {
       for (size_t edge = 0; edge < 2; ++edge)
         edges.push_back(EdgeErrorJson(setup_.model, seen[leg][edge], setup_.goal.edges[leg][edge]));
-      directions.push_back(DirectionErrorJson(seen[leg], setup_.goal.directions[leg]));
+      directions.push_back(DirectionErrorJson(setup_.goal, leg, seen[leg]));
     }
     columns["edge_errors_px"].push_back(edges);
     columns["direction_errors_rad"].push_back(directions);

@@ -146,21 +146,6 @@ std::string LiveText(const ServoCycle& cycle, ControlMode mode) {
                      limits.empty() ? "" : "  " + limits, waiting);
 }
 
-}  // namespace
-
-Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform) {
-  std::vector<Eigen::Vector3d> from_a, from_b, to_a, to_b;
-  for (size_t i = 0; i < kLegCount; ++i) {
-    from_a.push_back(from.legs[i].base_joint_m);
-    from_b.push_back(from.legs[i].platform_joint_m);
-    to_a.push_back(to.legs[i].base_joint_m);
-    to_b.push_back(to.legs[i].platform_joint_m);
-  }
-  return FitRigid(from_a, to_a) * base_from_platform * FitRigid(to_b, from_b);
-}
-
-namespace {
-
 void DemandSameImageSize(const ServoSettings& settings, const Camera& model, const Camera& rig) {
   if (model.width_px == rig.width_px && model.height_px == rig.height_px) return;
   throw InputError(settings.model, 0,
@@ -203,7 +188,7 @@ FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::files
   std::optional<TrackedEdgeSource> images;
   std::optional<SimulatedEdges> lines;
   if (prepared.settings.is_image_free)
-    lines.emplace(rig);
+    lines.emplace(rig, model.camera);
   else
     images.emplace(rig, model.robot, model.camera, model.camera_from_base, TrackerOptions());
   EdgeSource& source = images ? static_cast<EdgeSource&>(*images) : *lines;

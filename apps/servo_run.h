@@ -41,8 +41,4 @@ struct FinishedServo {
 FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
                          ProgressLine& progress);
 
-// The pose in the frames of another robot of the same build: those that fit its base and platform joints
-// best.
-Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform);
-
 }  // namespace legible

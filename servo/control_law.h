@@ -75,8 +75,9 @@ struct LawResult {
   Vector6d to_go_m = Vector6d::Zero();
   // Way that differs from it by d costs |metric d|^2 more: what a step that a limit forces aside trades by.
   Matrix6d metric = Matrix6d::Identity();
-  double error = 0;         // root mean square of what is controlled
-  double error_noise = 0;   // of that, what noise alone leaves, by the edges' covariances
+  double error = 0;  // root mean square of what is controlled
+  // Of that, what noise alone leaves, by the covariances of the edges seen and (but for a pose) the goal's.
+  double error_noise = 0;
   int legs = 0, edges = 0;  // that take part
   int rank = 0;
   Vector6d singular_values = Vector6d::Zero();  // of what is seen (or of the inverse Jacobian), descending

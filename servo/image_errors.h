@@ -8,7 +8,7 @@
 
 namespace legible {
 
-// An error and what of it noise alone leaves: mean squares.
+// An error and what of it noise alone leaves, that of what is seen and that of the goal: mean squares.
 struct SquaredError {
   double squares = 0, noise_squares = 0;
 };
@@ -16,8 +16,8 @@ struct SquaredError {
 // Distance of the goal's edge, at both its ends, from the line seen, px of the undistorted image.
 SquaredError EdgeError(const ServoModel& model, const SeenEdge& seen, const SeenEdge& goal);
 
-// Angle between the direction of a leg, by both its edges, and the goal's, rad.
-SquaredError DirectionError(const SeenEdge& edge_1, const SeenEdge& edge_2, const Eigen::Vector3d& goal);
+// Angle between the direction of a leg, by both its edges, and the goal's, which must have one, rad.
+SquaredError DirectionError(const ServoGoal& goal, const SeenEdge& edge_1, const SeenEdge& edge_2);
 
 // Root mean squares: over all edges that both have, over all legs that show both edges and have a goal. NaN
 // where there are none.

@@ -40,30 +40,58 @@ Stretch LongestVisible(const PredictedEdge& edge) {
 struct EdgeEnd {
   Eigen::Vector2d point, across_per_px;
 };
+using EdgeEnds = std::array<EdgeEnd, 2>;
+
+Eigen::Vector2d AcrossPerPx(const Camera& camera, const Eigen::Vector3d& normal) {
+  const Eigen::Array2d focal_px(camera.fx_px, camera.fy_px);
+  const Eigen::Vector2d normal_px = (normal.head<2>().array() / focal_px).matrix().normalized();
+  return normal_px.array() / focal_px;
+}
 
 // The sight plane of the edge touches the cylinder at P + R n.
 EdgeEnd EndAt(const LegInCamera& leg, const Camera& camera, const Eigen::Vector3d& normal, double share) {
   const Eigen::Vector3d on_edge = leg.AxisPoint(share) + leg.radius_m * normal;
-  const Eigen::Array2d focal_px(camera.fx_px, camera.fy_px);
-  const Eigen::Vector2d normal_px = (normal.head<2>().array() / focal_px).matrix().normalized();
-  return {on_edge.hnormalized(), normal_px.array() / focal_px};
+  return {on_edge.hnormalized(), AcrossPerPx(camera, normal)};
 }
 
-// The edge through both ends after they have moved by noise_px; n = (x1 x x2) / |x1 x x2| up to its sign.
-SeenEdge Seen(const std::array<EdgeEnd, 2>& ends, const Eigen::Vector3d& true_normal,
-              const Eigen::Vector2d& noise_px, double sigma_px) {
-  SeenEdge seen;
-  std::array<Eigen::Vector3d, 2> moved, across;
+void Move(EdgeEnds& ends, const Eigen::Vector2d& noise_px) {
+  for (size_t i = 0; i < 2; ++i)
+    ends[i].point += noise_px[static_cast<Eigen::Index>(i)] * ends[i].across_per_px;
+}
+
+// The line through both points, n = (x1 x x2) / |x1 x x2|, on the side of another normal.
+Eigen::Vector3d NormalThrough(const EdgeEnds& ends, const Eigen::Vector3d& side) {
+  const Eigen::Vector3d product = ends[0].point.homogeneous().cross(ends[1].point.homogeneous());
+  return (product.dot(side) < 0 ? -1 : 1) / product.norm() * product;
+}
+
+// The ends' pixels, looked at through another camera; nothing where its lens does not reach.
+std::optional<EdgeEnds> ThroughModel(const EdgeEnds& ends, const Eigen::Vector3d& normal,
+                                     const Camera& camera, const Camera& model) {
+  EdgeEnds through;
   for (size_t i = 0; i < 2; ++i) {
-    seen.ends[i] = ends[i].point + noise_px[static_cast<Eigen::Index>(i)] * ends[i].across_per_px;
-    moved[i] = seen.ends[i].homogeneous();
+    const auto point = Unproject(model, ProjectNormalised(camera, ends[i].point));
+    if (!point) return std::nullopt;
+    through[i].point = *point;
+  }
+  const Eigen::Vector2d across = AcrossPerPx(model, NormalThrough(through, normal));
+  for (EdgeEnd& end : through) end.across_per_px = across;
+  return through;
+}
+
+// The edge through both ends, to which the noise has been done.
+SeenEdge Seen(const EdgeEnds& ends, const Eigen::Vector3d& side, double sigma_px) {
+  SeenEdge seen;
+  std::array<Eigen::Vector3d, 2> point, across;
+  for (size_t i = 0; i < 2; ++i) {
+    seen.ends[i] = ends[i].point;
+    point[i] = ends[i].point.homogeneous();
     across[i] << ends[i].across_per_px, 0;
   }
-  const Eigen::Vector3d product = moved[0].cross(moved[1]);
-  const double size = product.dot(true_normal) < 0 ? -product.norm() : product.norm();
-  seen.normal = product / size;
+  seen.normal = NormalThrough(ends, side);
+  const double size = point[0].cross(point[1]).dot(seen.normal);
   Eigen::Matrix<double, 3, 2> d_normal_d_px;
-  d_normal_d_px << across[0].cross(moved[1]) / size, moved[0].cross(across[1]) / size;
+  d_normal_d_px << across[0].cross(point[1]) / size, point[0].cross(across[1]) / size;
   d_normal_d_px -= (seen.normal * (seen.normal.transpose() * d_normal_d_px)).eval();
   seen.normal_covariance = sigma_px * sigma_px * d_normal_d_px * d_normal_d_px.transpose();
   return seen;
@@ -86,13 +114,19 @@ bool IsCovered(const Frame& frame, int leg) {
   return std::binary_search(frame.covered_legs.begin(), frame.covered_legs.end(), leg);
 }
 
+bool IsCamera(const Camera& camera) {
+  return camera.width_px > 0 && camera.height_px > 0 && camera.fx_px > 0 && camera.fy_px > 0;
+}
+
 }  // namespace
 
-SimulatedEdges::SimulatedEdges(SimulatedRig& rig) : rig_(rig) {
+SimulatedEdges::SimulatedEdges(SimulatedRig& rig, const std::optional<Camera>& model_camera)
+    : rig_(rig), model_camera_(model_camera) {
   visibility_.step_px = kStep_px;
-  const Camera& camera = rig.truth().camera;
-  if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0))
+  if (!IsCamera(rig.truth().camera))
     throw std::invalid_argument("SimulatedEdges: the rig's truth has no camera");
+  if (model_camera && !IsCamera(*model_camera))
+    throw std::invalid_argument("SimulatedEdges: the model is no camera");
 }
 
 SeenEdges SimulatedEdges::See(const MotionNow& /*motion*/) {
@@ -111,10 +145,12 @@ SeenEdges SimulatedEdges::See(const MotionNow& /*motion*/) {
       const PredictedEdge& edge = predicted[leg][j];
       const Stretch stretch = LongestVisible(edge);
       if (stretch.length_px < kShortestSeen_px) continue;
-      const std::array<EdgeEnd, 2> ends = {EndAt(legs[leg], truth.camera, edge.normal, stretch.begin),
-                                           EndAt(legs[leg], truth.camera, edge.normal, stretch.end)};
-      seen.edges.push_back(
-          Seen(ends, edge.normal, noise_px * noise[leg][j], std::max(noise_px, kLeastNoise_px)));
+      std::optional<EdgeEnds> ends{{EndAt(legs[leg], truth.camera, edge.normal, stretch.begin),
+                                    EndAt(legs[leg], truth.camera, edge.normal, stretch.end)}};
+      Move(*ends, noise_px * noise[leg][j]);
+      if (model_camera_) ends = ThroughModel(*ends, edge.normal, truth.camera, *model_camera_);
+      if (!ends) continue;
+      seen.edges.push_back(Seen(*ends, edge.normal, std::max(noise_px, kLeastNoise_px)));
       seen.edges.back().leg = i;
       seen.edges.back().edge = static_cast<int>(j);
     }

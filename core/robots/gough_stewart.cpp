@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace legible {
 namespace {
@@ -67,6 +68,17 @@ double PlatformRadius(const GoughStewart& robot) {
   double sum_m2 = 0;
   for (const Leg& leg : robot.legs) sum_m2 += leg.platform_joint_m.squaredNorm();
   return std::sqrt(sum_m2 / kLegCount);
+}
+
+Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform) {
+  std::vector<Eigen::Vector3d> from_a, from_b, to_a, to_b;
+  for (size_t i = 0; i < kLegCount; ++i) {
+    from_a.push_back(from.legs[i].base_joint_m);
+    from_b.push_back(from.legs[i].platform_joint_m);
+    to_a.push_back(to.legs[i].base_joint_m);
+    to_b.push_back(to.legs[i].platform_joint_m);
+  }
+  return FitRigid(from_a, to_a) * base_from_platform * FitRigid(to_b, from_b);
 }
 
 Vector6d InverseKinematics(const GoughStewart& robot, const Rigid3& base_from_platform) {

@@ -30,6 +30,10 @@ struct GoughStewart {
 // comparable to a displacement.
 double PlatformRadius(const GoughStewart& robot);
 
+// The pose in the frames of another robot of the same build: those that fit its base and platform joints
+// best.
+Rigid3 InFramesOf(const GoughStewart& to, const GoughStewart& from, const Rigid3& base_from_platform);
+
 // Joint readings |B_i - A_i| - offset_i (m) that put the platform at base_from_platform.
 Vector6d InverseKinematics(const GoughStewart& robot, const Rigid3& base_from_platform);
 

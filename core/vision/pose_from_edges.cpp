@@ -11,7 +11,7 @@
 namespace legible {
 namespace {
 
-constexpr int kMaxIterations = 20;
+constexpr int kMaxIterations = 60;          // slow where the camera is only roughly known: large residuals
 constexpr int kLeastEdges = 6;              // each says one number of the pose, for its leg turns about A
 constexpr double kSmallStep = 1e-11;        // of the platform joints, in leg lengths
 constexpr double kLeastPivotShare = 1e-12;  // of the information in natural units

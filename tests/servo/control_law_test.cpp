@@ -276,6 +276,38 @@ TEST(ControlLaw, KnowsWhatNoiseMakesOfItsWayAndError) {
   }
 }
 
+// The ends of a stretch that was seen lie on its line.
+SeenEdges WithEndsOnTheirLines(SeenEdges seen) {
+  for (SeenEdge& edge : seen.edges)
+    for (Eigen::Vector2d& end : edge.ends) {
+      const Eigen::Vector2d across = edge.normal.head<2>();
+      end -= across * (edge.normal.dot(end.homogeneous()) / across.squaredNorm());
+    }
+  return seen;
+}
+
+// A goal that was shown has noise of its own, for good.
+TEST(ControlLaw, KnowsWhatNoiseOfAShownGoalMakesOfItsError) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections}) {
+    SCOPED_TRACE(ToString(mode));
+    const ServoScene scene = RandomScene(generator);
+    SeenEdges exact = EdgesAt(scene.model, scene.pose);
+    GiveCovariances(exact, 3e-5, generator);
+    constexpr int kDraws = 1000;
+    double squares = 0, predicted = 0;
+    for (int n = 0; n < kDraws; ++n) {
+      const SeenEdges shown = WithEndsOnTheirLines(Moved(exact, generator));
+      const Task task{scene, GoalFromEdges(scene.model, shown, scene.pose)};
+      const LawResult result =
+          EvaluateLaw(scene.model, task.goal, task.Input(Moved(exact, generator)), Law(mode));
+      squares += result.error * result.error;
+      predicted += result.error_noise * result.error_noise;
+    }
+    EXPECT_NEAR(squares / predicted, 1, 5 * std::sqrt(2.0 / (6 * kDraws)));
+  }
+}
+
 TEST(PoseLaw, KnowsWhatNoiseMakesOfItsError) {
   std::mt19937_64 generator = TestGenerator();
   const ServoScene scene = RandomScene(generator);

@@ -193,11 +193,62 @@ TEST(SimulatedEdges, HaveTheFaultsOfTheFrames) {
   EXPECT_THROW(SimulatedEdges(lost).See({}), RigError);
 }
 
+Camera OffBy(std::mt19937_64& generator, Camera camera) {
+  for (double* value : {&camera.fx_px, &camera.fy_px, &camera.cx_px, &camera.cy_px})
+    *value += Uniform(generator, -8, 8);
+  camera.distortion.head<2>() << Uniform(generator, -0.2, 0), Uniform(generator, 0, 0.05);
+  return camera;
+}
+
+TEST(SimulatedEdges, ThroughTheTrueCameraAsModelAreTheSame) {
+  SimulatedRig rig(DesktopTruth(), {});
+  const SeenEdges plain = SimulatedEdges(rig).See({}),
+                  modelled = SimulatedEdges(rig, rig.truth().camera).See({});
+  ASSERT_EQ(plain.edges.size(), modelled.edges.size());
+  for (size_t i = 0; i < plain.edges.size(); ++i) {
+    EXPECT_TRUE(AreNear(modelled.edges[i].normal, plain.edges[i].normal, 1e-12));
+    // Its noise is across the edge as seen, not as it is.
+    const Eigen::Matrix3d& covariance = plain.edges[i].normal_covariance;
+    EXPECT_TRUE(AreNear(modelled.edges[i].normal_covariance, covariance, 1e-3 * covariance.trace()));
+  }
+}
+
+// A model of the camera is wrong about sight lines, never about pixels.
+TEST(SimulatedEdges, ThroughAModelLieAtTheSamePixels) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int i = 0; i < 50; ++i) {
+    SimulationOptions options = SomewhereElse(generator);
+    options.edge_noise_px = 0.3;
+    SimulatedRig rig(DesktopTruth(), options);
+    const Camera model = OffBy(generator, rig.truth().camera);
+    const SeenEdges plain = SimulatedEdges(rig).See({}), modelled = SimulatedEdges(rig, model).See({});
+    ASSERT_EQ(plain.edges.size(), modelled.edges.size());
+    for (size_t k = 0; k < plain.edges.size(); ++k) {
+      const SeenEdge &edge = modelled.edges[k], &truly = plain.edges[k];
+      EXPECT_EQ(edge.leg, truly.leg);
+      EXPECT_EQ(edge.edge, truly.edge);
+      EXPECT_GT(edge.normal.dot(truly.normal), 0.99);
+      for (size_t end = 0; end < 2; ++end) {
+        EXPECT_TRUE(AreNear(ProjectNormalised(model, edge.ends[end]),
+                            ProjectNormalised(rig.truth().camera, truly.ends[end]), 1e-9));
+        EXPECT_NEAR(edge.normal.dot(edge.ends[end].homogeneous()), 0, 1e-14);
+        // What a model says of an end's noise, across the edge in its undistorted image.
+        const Eigen::Vector3d x = edge.ends[end].homogeneous();
+        const Eigen::Vector2d by_px =
+            edge.normal.head<2>().cwiseProduct(Eigen::Vector2d(model.fx_px, model.fy_px).cwiseInverse());
+        EXPECT_NEAR(std::sqrt(x.dot(edge.normal_covariance * x)), 0.3 * by_px.norm(), 1e-6);
+      }
+    }
+  }
+}
+
 TEST(SimulatedEdges, NeedACamera) {
   SimulationTruth truth = DesktopTruth();
   truth.camera = {};
   SimulatedRig rig(truth, {});
   EXPECT_THROW(SimulatedEdges{rig}, std::invalid_argument);
+  SimulatedRig whole(DesktopTruth(), {});
+  EXPECT_THROW(SimulatedEdges(whole, Camera{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -36,6 +36,24 @@ Rigid3 RandomPose(std::mt19937_64& generator, const GoughStewart& robot) {
   return Displaced(robot.home, RandomDisplacement(generator, 0.05, 0.2));
 }
 
+// The same robot in frames that lie elsewhere has the same leg lengths.
+TEST(InFramesOf, KeepsTheLegsOfTheSameRobotInOtherFrames) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int i = 0; i < 20; ++i) {
+    const GoughStewart robot = RandomRobot(generator);
+    const Rigid3 base = Displaced({}, RandomDisplacement(generator, 0.5, 2)),
+                 platform = Displaced({}, RandomDisplacement(generator, 0.5, 2));
+    GoughStewart moved = robot;
+    for (Leg& leg : moved.legs) {
+      leg.base_joint_m = base * leg.base_joint_m;
+      leg.platform_joint_m = platform * leg.platform_joint_m;
+    }
+    const Rigid3 pose = RandomPose(generator, robot);
+    EXPECT_TRUE(AreNear(InverseKinematics(moved, InFramesOf(moved, robot, pose)),
+                        InverseKinematics(robot, pose), 1e-12));
+  }
+}
+
 // --- Inverse kinematics. ---------------------------------------------------------------------------------
 
 TEST(InverseKinematics, ReadingsAreTheLegLengthsLessTheOffsets) {
