@@ -304,6 +304,12 @@ void ControlLawOptions::Check() const {
     throw std::invalid_argument("ControlLawOptions: the least conditioning must be in [0, 1)");
 }
 
+bool LooksAtImages(const ControlLawOptions& options) {
+  const bool by_readings = options.mode == ControlMode::kJoints ||
+                           (options.mode == ControlMode::kPose && options.pose_source == PoseSource::kReadings);
+  return !by_readings;
+}
+
 void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
   const auto demand = [](bool is_there, const char* what) {
     if (!is_there) throw std::invalid_argument(what);

@@ -50,6 +50,9 @@ struct ControlLawOptions {
   void Check() const;  // throws std::invalid_argument
 };
 
+// Whether the law needs images at all.
+bool LooksAtImages(const ControlLawOptions& options);
+
 enum class LawStatus {
   kOk,
   kBadReadings,          // not numbers

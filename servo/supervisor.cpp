@@ -132,12 +132,6 @@ Supervisor::Supervisor(const ControlLawOptions& law, const SupervisorOptions& op
   if (options_.tolerance == 0) options_.tolerance = DefaultTolerance(law.mode);
 }
 
-bool Supervisor::Looks() const {
-  const bool by_readings = law_.mode == ControlMode::kJoints ||
-                           (law_.mode == ControlMode::kPose && law_.pose_source == PoseSource::kReadings);
-  return !by_readings;
-}
-
 void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s) {
   if (!start_s_) {
     start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
@@ -195,7 +189,7 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
     return Ended(ServoEnd::kStaleReadings,
                  fmt::format("no fresh joint readings: the newest are {:.2f} s old", readings_age_s));
   const double image_age_s = input.time_s - input.seen.time_s;
-  if (Looks() && image_age_s > options_.stale_s + kTimeSlack_s)
+  if (LooksAtImages(law_) && image_age_s > options_.stale_s + kTimeSlack_s)
     return Ended(ServoEnd::kStaleImages,
                  fmt::format("no fresh image: the newest is {:.2f} s old", image_age_s));
   return std::nullopt;
@@ -208,7 +202,7 @@ std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
   const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
   const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
-  const bool images_stand = Looks() && by_images.way_m > options_.unanswered_m;
+  const bool images_stand = LooksAtImages(law_) && by_images.way_m > options_.unanswered_m;
   const auto way_text = [](const FarthestLeg& farthest) {
     return fmt::format("leg {} was commanded by {:.1f} mm", farthest.leg + 1, 1e3 * farthest.way_m);
   };
@@ -221,8 +215,8 @@ std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
     return Ended(ServoEnd::kFrozenReadings,
                  fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
                              readings_for_s, way_text(by_readings),
-                             Looks() ? ", for the images change" : ", or the drives do not move"));
-  const bool repeats = Looks() && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
+                             LooksAtImages(law_) ? ", for the images change" : ", or the drives do not move"));
+  const bool repeats = LooksAtImages(law_) && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
   if (images_stand || repeats)
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s{}: they are frozen", images_for_s,
@@ -306,7 +300,7 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
 
 Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   const double now_s = recent_.back().time_s;
-  if (Looks() && now_s - images_changed_s_ > options_.stale_s + kTimeSlack_s)
+  if (LooksAtImages(law_) && now_s - images_changed_s_ > options_.stale_s + kTimeSlack_s)
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s: they are frozen, or nothing moves",
                              now_s - images_changed_s_));

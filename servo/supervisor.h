@@ -89,7 +89,6 @@ class Supervisor {
     Vector6d readings_m, commanded_way_m;
   };
 
-  bool Looks() const;
   std::optional<Verdict> JudgeInput(const CycleInput& input) const;
   std::optional<Verdict> JudgeAnswers(const CycleInput& input) const;
   std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
