@@ -81,6 +81,8 @@ struct LawResult {
   double error = 0;         // root mean square of what is controlled
   double error_noise = 0;   // of that, what noise alone leaves, by the edges' covariances
   int legs = 0, edges = 0;  // that take part
+  // Of the legs that are looked at and that the goal has: no edge is seen, or only one that the goal has too.
+  std::bitset<kLegCount> unseen, half_seen;
   int rank = 0;
   Vector6d singular_values = Vector6d::Zero();  // of what is seen (or of the inverse Jacobian), descending
   double robot_conditioning = 0;                // smallest over largest singular value, rotations scaled

@@ -89,6 +89,21 @@ std::string LegList(const std::bitset<kLegCount>& legs) {
   return text;
 }
 
+namespace {
+
+// "; leg 2 is not seen, of legs 3 and 5 one edge alone", or nothing.
+std::string UnseenText(const LawResult& law) {
+  std::string text;
+  if (law.unseen.any())
+    text = fmt::format("; {} {} not seen", LegList(law.unseen), law.unseen.count() == 1 ? "is" : "are");
+  if (law.half_seen.any())
+    text += fmt::format("{} of {} one edge alone{}", text.empty() ? ";" : ",", LegList(law.half_seen),
+                        text.empty() ? " is seen" : "");
+  return text;
+}
+
+}  // namespace
+
 std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options) {
   const LawResult& law = step.law;
   switch (law.status) {
@@ -102,15 +117,15 @@ std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options)
       return fmt::format("the robot is at a singularity: conditioning {:.2g}, at least {:.2g} is asked for",
                          law.robot_conditioning, options.least_robot_conditioning);
     case LawStatus::kTooFewEdges:
-      return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed",
-                         law.edges, law.legs);
+      return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed{}",
+                         law.edges, law.legs, UnseenText(law));
     case LawStatus::kIllConditionedEdges:
       return fmt::format(
           "the {} edges seen, of {} legs, leave a motion of the platform open: conditioning {:.2g}, at least "
-          "{:.2g} is asked for",
-          law.edges, law.legs, law.Conditioning(), options.least_conditioning);
+          "{:.2g} is asked for{}",
+          law.edges, law.legs, law.Conditioning(), options.least_conditioning, UnseenText(law));
     case LawStatus::kNoPoseFromEdges:
-      return "no pose of the platform near the joint readings fits the edges";
+      return "no pose of the platform near the joint readings fits the edges" + UnseenText(law);
   }
   throw std::invalid_argument("WhyNoSpeeds: not a LawStatus");
 }

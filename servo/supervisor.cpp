@@ -20,11 +20,24 @@ bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
                     });
 }
 
-// With noise that shows no image comes twice.
+// With noise that shows no image comes twice. (An image-free simulation without noise states very little.)
 bool HasNoise(const SeenEdges& seen) {
-  constexpr double kLeastNoise_rad = 1e-6;
-  return std::any_of(seen.edges.begin(), seen.edges.end(), [](const SeenEdge& edge) {
+  constexpr double kLeastNoise_rad = 3e-6;
+  const auto has_noise = [](const SeenEdge& edge) {
     return edge.normal_covariance.trace() > kLeastNoise_rad * kLeastNoise_rad;
+  };
+  return !seen.edges.empty() && std::all_of(seen.edges.begin(), seen.edges.end(), has_noise);
+}
+
+// Whether an edge has moved by more than the noise of both images can do.
+bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
+  constexpr double kMostSigmas = 6;
+  const EdgesByLeg edges_before = ByLeg(before);
+  return std::any_of(now.edges.begin(), now.edges.end(), [&](const SeenEdge& edge) {
+    const auto& same = edges_before[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
+    if (!same) return false;
+    const double noise2 = edge.normal_covariance.trace() + same->normal_covariance.trace();
+    return (edge.normal - same->normal).squaredNorm() > kMostSigmas * kMostSigmas * noise2;
   });
 }
 
@@ -135,6 +148,7 @@ Supervisor::Supervisor(const ControlLawOptions& law, const SupervisorOptions& op
 void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s) {
   if (!start_s_) {
     start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
+    seen_at_readings_ = input.seen;
     before_ = input;
     return;
   }
@@ -147,6 +161,7 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
     readings_changed_s_ = input.readings.time_s;
     unanswered_by_readings_m_.setZero();
+    seen_at_readings_ = input.seen;
     // What was commanded after they were taken is still ahead of them.
     way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
@@ -203,19 +218,20 @@ std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
   const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
   const bool images_stand = LooksAtImages(law_) && by_images.way_m > options_.unanswered_m;
+  const bool is_still = LooksAtImages(law_) && !HaveMoved(seen_at_readings_, input.seen);
   const auto way_text = [](const FarthestLeg& farthest) {
     return fmt::format("leg {} was commanded by {:.1f} mm", farthest.leg + 1, 1e3 * farthest.way_m);
   };
-  if (readings_stand && images_stand)
+  if (readings_stand && is_still)
     return Ended(ServoEnd::kDrivesDoNotMove,
-                 fmt::format("neither joint readings nor images change though {}: "
+                 fmt::format("neither joint readings nor images show any motion though {}: "
                              "the drives do not move",
                              way_text(by_readings)));
   if (readings_stand)
     return Ended(ServoEnd::kFrozenReadings,
                  fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
                              readings_for_s, way_text(by_readings),
-                             LooksAtImages(law_) ? ", for the images change" : ", or the drives do not move"));
+                             LooksAtImages(law_) ? ", for the images show motion" : ", or the drives do not move"));
   const bool repeats = LooksAtImages(law_) && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
   if (images_stand || repeats)
     return Ended(ServoEnd::kFrozenImages,
@@ -277,9 +293,8 @@ bool Supervisor::Grows(const CycleInput& input, double error) {
 
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
-  // While the speed limit alone makes it slow there is nothing to complain of.
-  if (step.speed_factor < 1) recent_.clear();
-  recent_.push_back({input.time_s, step.law.error, input.readings.joint_readings_m, commanded_way_m_});
+  recent_.push_back({input.time_s, step.law.error, step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
+                     step.speed_factor < 1, input.readings.joint_readings_m, commanded_way_m_});
   if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
   const double middle_s = input.time_s - options_.stall_s / 2;
   double sums[2] = {0, 0}, counts[2] = {0, 0};
@@ -289,6 +304,10 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
   }
   const double mean = sums[1] / counts[1];
   const bool falls = mean < (1 - options_.stall_share) * sums[0] / counts[0];
+  if (!falls && IsOnItsWay()) {
+    recent_.clear();
+    return std::nullopt;
+  }
   if (!falls && mean <= options_.tolerance_in_noise * step.law.error_noise)
     return Ended(ServoEnd::kConverged,
                  fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
@@ -298,12 +317,34 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
   return std::nullopt;
 }
 
+// Whether the speed limit alone makes it slow: mostly at the limit, and not to and fro as noise drives it.
+bool Supervisor::IsOnItsWay() const {
+  constexpr double kShare = 0.5;
+  const auto count = static_cast<double>(recent_.size());
+  double limited = 0, speeds_m_per_s = 0;
+  for (const Moment& moment : recent_) {
+    limited += moment.is_at_speed_limit;
+    speeds_m_per_s += moment.fastest_m_per_s;
+  }
+  const double most_m = speeds_m_per_s / count * (recent_.back().time_s - recent_.front().time_s);
+  const double made_m = Farthest(commanded_way_m_ - recent_.front().commanded_way_m).way_m;
+  return limited > kShare * count && made_m > kShare * most_m;
+}
+
+// How far a joint has moved since the images changed last, as far back as the last moments go.
+double Supervisor::WaySinceImages() const {
+  const auto then = std::find_if(recent_.begin(), recent_.end(), [this](const Moment& moment) {
+    return moment.time_s >= images_changed_s_;
+  });
+  return (recent_.back().readings_m - then->readings_m).cwiseAbs().maxCoeff();
+}
+
 Verdict Supervisor::WhyStalled(const ServoStep& step) const {
-  const double now_s = recent_.back().time_s;
-  if (LooksAtImages(law_) && now_s - images_changed_s_ > options_.stale_s + kTimeSlack_s)
+  const double images_for_s = recent_.back().time_s - images_changed_s_;
+  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && WaySinceImages() > kLeastWay_m)
     return Ended(ServoEnd::kFrozenImages,
-                 fmt::format("the images have not changed for {:.2f} s: they are frozen, or nothing moves",
-                             now_s - images_changed_s_));
+                 fmt::format("the images have not changed for {:.2f} s though the joints moved: they are frozen",
+                             images_for_s));
   const std::string error = fmt::format("the error no longer falls: {} left", ErrorText(step.law.error));
   const std::bitset<kLegCount> held = step.at_shortest | step.at_longest;
   if (held.any())

@@ -85,7 +85,8 @@ class Supervisor {
 
  private:
   struct Moment {
-    double time_s, error;
+    double time_s, error, fastest_m_per_s;
+    bool is_at_speed_limit;
     Vector6d readings_m, commanded_way_m;
   };
 
@@ -96,6 +97,8 @@ class Supervisor {
   bool HasArrived(const CycleInput& input, const ServoStep& step);
   bool Grows(const CycleInput& input, double error);
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
+  bool IsOnItsWay() const;
+  double WaySinceImages() const;
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
 
@@ -109,6 +112,7 @@ class Supervisor {
   // Commanded between the first and the newest of readings and images that are the same.
   Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
   Vector6d unanswered_by_images_m_ = Vector6d::Zero();
+  SeenEdges seen_at_readings_;  // when these last changed
   Vector6d commanded_way_m_ = Vector6d::Zero();
   double smallest_error_ = 1e300;
   std::deque<Moment> recent_;

@@ -147,7 +147,7 @@ double Patience_s(const ServoTrial& trial) {
 
 // For how long the fault was there and did anything to the law, before the run ended.
 double FaultLasted_s(const Outcome& outcome) {
-  if (!outcome.trial.FaultMatters()) return 0;
+  if (!outcome.trial.FaultMatters()) return -1;
   return std::min(outcome.trial.fault->until_s, outcome.end_s) - outcome.trial.fault->from_s;
 }
 
@@ -177,8 +177,9 @@ bool IsHonest(const Outcome& outcome) {
       return is_wrong || has_noise || trial.HasFriction();
     case ServoEnd::kDrivesDoNotMove:
       return trial.HasFriction();
-    case ServoEnd::kErrorGrows:
     case ServoEnd::kNoPose:
+      return is_wrong || has_noise;
+    case ServoEnd::kErrorGrows:
     case ServoEnd::kRobotSingular:
       return is_wrong;
     case ServoEnd::kTooFewEdges:
@@ -205,7 +206,7 @@ std::string Complaint(const Outcome& outcome) {
   if (outcome.run.end == ServoEnd::kRunning || outcome.run.reason.empty()) return "it has not ended";
   if (outcome.run.time_s > trial.options.supervision.timeout_s + kPeriod_s) return "it ended too late";
   const double lasted_s = FaultLasted_s(outcome);
-  if (lasted_s > 0 && Names(outcome, *trial.fault)) return "";
+  if (lasted_s >= 0 && Names(outcome, *trial.fault)) return "";
   if (lasted_s > Patience_s(trial)) return "the fault is not named";
   if (lasted_s > 0 && trial.fault->kind == FaultKind::kReadingsFrozen &&
       outcome.run.end != ServoEnd::kConverged && lasted_s > 1)
