@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/geometry/tangents.h"
 
 namespace legible {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 constexpr double kTimeSlack_s = 1e-9;   // clocks are sums of periods
 constexpr double kFollowedShare = 0.2;  // of a commanded way that a drive makes at least if it follows
 constexpr double kLeastWay_m = 5e-5;    // that says anything about following
+constexpr double kSureWay_m = 2e-4;     // that is more than the noise of readings
 
 bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
   return std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
@@ -29,16 +33,25 @@ bool HasNoise(const SeenEdges& seen) {
   return !seen.edges.empty() && std::all_of(seen.edges.begin(), seen.edges.end(), has_noise);
 }
 
-// Whether an edge has moved by more than the noise of both images can do.
+// Whether the edges have moved by more than the noise of both images can do: by their normalised squares, two
+// an edge, of which noise leaves a mean of 1.
 bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
-  constexpr double kMostSigmas = 6;
+  constexpr double kMostMeanSquare = 2.5;
   const EdgesByLeg edges_before = ByLeg(before);
-  return std::any_of(now.edges.begin(), now.edges.end(), [&](const SeenEdge& edge) {
+  double squares = 0;
+  int count = 0;
+  for (const SeenEdge& edge : now.edges) {
     const auto& same = edges_before[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
-    if (!same) return false;
-    const double noise2 = edge.normal_covariance.trace() + same->normal_covariance.trace();
-    return (edge.normal - same->normal).squaredNorm() > kMostSigmas * kMostSigmas * noise2;
-  });
+    if (!same) continue;
+    const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(edge.normal);
+    const Eigen::Matrix2d covariance =
+        tangents.transpose() * (edge.normal_covariance + same->normal_covariance) * tangents;
+    const Eigen::Vector2d moved = tangents.transpose() * (edge.normal - same->normal);
+    if (moved.isZero(0)) continue;  // with or without noise
+    squares += moved.dot(covariance.inverse() * moved);
+    count += 2;
+  }
+  return count > 0 && !(squares <= kMostMeanSquare * count);
 }
 
 Verdict Ended(ServoEnd end, const std::string& reason) { return {end, reason, false, 0}; }
@@ -174,16 +187,27 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
 
 Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
   if (last_.end != ServoEnd::kRunning) return last_;
+  ++cycles_;
   std::optional<Verdict> verdict = JudgeInput(input);
   if (!verdict) verdict = JudgeAnswers(input);
   if (!verdict) verdict = JudgeUsability(input, step);
   if (!verdict) verdict = JudgeProgress(input, step);
   if (!verdict && input.time_s - *start_s_ >= options_.timeout_s - kTimeSlack_s)
-    verdict = Ended(ServoEnd::kTimeout, fmt::format("not converged within {:.1f} s: {} left",
-                                                    options_.timeout_s, ErrorText(step.law.error)));
+    verdict = Ended(ServoEnd::kTimeout, WhyTooLate(step));
   if (verdict) last_ = *verdict;
   last_.tolerance = options_.tolerance;
   return last_;
+}
+
+std::string Supervisor::WhyTooLate(const ServoStep& step) const {
+  const std::string error = last_.is_waiting ? "" : ": " + ErrorText(step.law.error) + " left";
+  const std::string waits =
+      waits_ == 0 ? ""
+                  : fmt::format("; it waited in {:.0f} % of its cycles, last because {}",
+                                100.0 * waits_ / cycles_, why_waited_);
+  const std::string limits = DescribeLimits(step);
+  return fmt::format("not converged within {:.1f} s{}{}{}", options_.timeout_s, error, waits,
+                     limits.empty() ? "" : "; " + limits);
 }
 
 Verdict Supervisor::End(ServoEnd end, const std::string& reason) {
@@ -248,6 +272,8 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
     unusable_since_s_.reset();
     return std::nullopt;
   }
+  ++waits_;
+  why_waited_ = WhyNoSpeeds(step, law_);
   if (!unusable_since_s_) unusable_since_s_ = input.time_s;
   // Nothing is known of the error meanwhile.
   within_since_s_.reset();
@@ -256,7 +282,7 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
   const bool at_once = status == LawStatus::kBadReadings || status == LawStatus::kRobotSingular;
   const double for_s = input.time_s - *unusable_since_s_;
   if (!at_once && for_s < options_.unusable_s - kTimeSlack_s) return std::nullopt;
-  return Ended(EndOf(status), WhyNoSpeeds(step, law_));
+  return Ended(EndOf(status), why_waited_);
 }
 
 std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const ServoStep& step) {
@@ -266,7 +292,8 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
                                                    ErrorText(step.law.error), ErrorText(options_.tolerance)));
   if (Grows(input, step.law.error))
     return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
-                                                    ErrorText(step.law.error), ErrorText(smallest_error_)));
+                                                    ErrorText(step.law.error),
+                             ErrorText(smallest_errors_[EdgesBehind(input)])));
   return JudgeStall(input, step);
 }
 
@@ -279,10 +306,18 @@ bool Supervisor::HasArrived(const CycleInput& input, const ServoStep& step) {
   return input.time_s - *within_since_s_ >= options_.dwell_s - kTimeSlack_s;
 }
 
+std::bitset<2 * kLegCount> Supervisor::EdgesBehind(const CycleInput& input) const {
+  std::bitset<2 * kLegCount> edges;
+  if (UnitOf(law_.mode) == UnitOf(ControlMode::kPose)) return edges;
+  for (const SeenEdge& edge : input.seen.edges)
+    if (law_.legs[static_cast<size_t>(edge.leg)]) edges.set(static_cast<size_t>(2 * edge.leg + edge.edge));
+  return edges;
+}
+
 bool Supervisor::Grows(const CycleInput& input, double error) {
-  smallest_error_ = std::min(smallest_error_, error);
-  const double allowed =
-      options_.growth_factor * smallest_error_ + options_.growth_tolerances * options_.tolerance;
+  double& smallest = smallest_errors_.try_emplace(EdgesBehind(input), error).first->second;
+  smallest = std::min(smallest, error);
+  const double allowed = options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance;
   if (error <= allowed) {
     growing_since_s_.reset();
     return false;
@@ -293,14 +328,19 @@ bool Supervisor::Grows(const CycleInput& input, double error) {
 
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
-  recent_.push_back({input.time_s, step.law.error, step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
-                     step.speed_factor < 1, input.readings.joint_readings_m, commanded_way_m_});
+  recent_.push_back({input.time_s, EdgesBehind(input), step.law.error, step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
+                     step.speed_factor < 1, step.at_shortest, step.at_longest, input.readings.joint_readings_m, commanded_way_m_});
   if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
   const double middle_s = input.time_s - options_.stall_s / 2;
   double sums[2] = {0, 0}, counts[2] = {0, 0};
   for (const Moment& moment : recent_) {
+    if (moment.edges != recent_.back().edges) continue;
     sums[moment.time_s >= middle_s] += moment.error;
     ++counts[moment.time_s >= middle_s];
+  }
+  if (counts[0] == 0) {  // these edges are new: nothing to compare with
+    recent_.pop_front();
+    return std::nullopt;
   }
   const double mean = sums[1] / counts[1];
   const bool falls = mean < (1 - options_.stall_share) * sums[0] / counts[0];
@@ -331,6 +371,16 @@ bool Supervisor::IsOnItsWay() const {
   return limited > kShare * count && made_m > kShare * most_m;
 }
 
+// The legs that are in the set in more than half of the last moments.
+std::bitset<kLegCount> Supervisor::MostlyHeld(std::bitset<kLegCount> Moment::*held) const {
+  std::array<size_t, kLegCount> counts{};
+  for (const Moment& moment : recent_)
+    for (size_t leg = 0; leg < kLegCount; ++leg) counts[leg] += (moment.*held)[leg];
+  std::bitset<kLegCount> mostly;
+  for (size_t leg = 0; leg < kLegCount; ++leg) mostly[leg] = 2 * counts[leg] > recent_.size();
+  return mostly;
+}
+
 // How far a joint has moved since the images changed last, as far back as the last moments go.
 double Supervisor::WaySinceImages() const {
   const auto then = std::find_if(recent_.begin(), recent_.end(), [this](const Moment& moment) {
@@ -341,15 +391,23 @@ double Supervisor::WaySinceImages() const {
 
 Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   const double images_for_s = recent_.back().time_s - images_changed_s_;
-  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && WaySinceImages() > kLeastWay_m)
+  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && WaySinceImages() > kSureWay_m)
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s though the joints moved: they are frozen",
                              images_for_s));
   const std::string error = fmt::format("the error no longer falls: {} left", ErrorText(step.law.error));
-  const std::bitset<kLegCount> held = step.at_shortest | step.at_longest;
-  if (held.any())
+  if (LooksAtImages(law_) && Farthest(unanswered_by_readings_m_).way_m > kLeastWay_m &&
+      HaveMoved(seen_at_readings_, before_->seen))
+    return Ended(ServoEnd::kFrozenReadings,
+                 fmt::format("the joint readings have not changed for {:.2f} s: they are frozen, for the images "
+                             "show motion",
+                             recent_.back().time_s - readings_changed_s_));
+  ServoStep held;
+  held.at_shortest = MostlyHeld(&Moment::at_shortest);
+  held.at_longest = MostlyHeld(&Moment::at_longest);
+  if ((held.at_shortest | held.at_longest).any())
     return Ended(ServoEnd::kStalled,
-                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(step)));
+                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(held)));
   const Vector6d commanded_m = commanded_way_m_ - recent_.front().commanded_way_m;
   const Vector6d moved_m = recent_.back().readings_m - recent_.front().readings_m;
   const FarthestLeg farthest = Farthest(commanded_m);

@@ -1,9 +1,11 @@
 // Decides when a servo has arrived and when it must not go on. What it has decided stays decided.
 #pragma once
 
+#include <bitset>
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "core/rig/rig.h"
 #include "core/vision/seen_edges.h"
@@ -85,8 +87,11 @@ class Supervisor {
 
  private:
   struct Moment {
-    double time_s, error, fastest_m_per_s;
+    double time_s;
+    std::bitset<2 * kLegCount> edges;  // behind the error
+    double error, fastest_m_per_s;
     bool is_at_speed_limit;
+    std::bitset<kLegCount> at_shortest, at_longest;
     Vector6d readings_m, commanded_way_m;
   };
 
@@ -95,9 +100,13 @@ class Supervisor {
   std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeProgress(const CycleInput& input, const ServoStep& step);
   bool HasArrived(const CycleInput& input, const ServoStep& step);
+  // Those that an error in the image is the mean over; none where the error is no matter of edges.
+  std::bitset<2 * kLegCount> EdgesBehind(const CycleInput& input) const;
+  std::string WhyTooLate(const ServoStep& step) const;
   bool Grows(const CycleInput& input, double error);
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
   bool IsOnItsWay() const;
+  std::bitset<kLegCount> MostlyHeld(std::bitset<kLegCount> Moment::*held) const;
   double WaySinceImages() const;
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
@@ -114,7 +123,10 @@ class Supervisor {
   Vector6d unanswered_by_images_m_ = Vector6d::Zero();
   SeenEdges seen_at_readings_;  // when these last changed
   Vector6d commanded_way_m_ = Vector6d::Zero();
-  double smallest_error_ = 1e300;
+  // By the edges behind them: other edges, other errors.
+  std::unordered_map<std::bitset<2 * kLegCount>, double> smallest_errors_;
+  int cycles_ = 0, waits_ = 0;
+  std::string why_waited_;
   std::deque<Moment> recent_;
 };
 
