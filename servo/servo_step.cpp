@@ -28,27 +28,45 @@ void SlowNearSingularity(const ServoStepOptions& options, ServoStep& step) {
   step.joint_speeds_m_per_s *= step.singularity_factor;
 }
 
-void KeepRanges(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
-                ServoStep& step) {
+// Nearest to the wanted speeds within the bounds, and which joints these hold.
+void HoldWithin(const SpeedBounds& bounds, const Vector6d& wanted, ServoStep& step) {
   Vector6d& speeds = step.joint_speeds_m_per_s;
-  const SpeedBounds bounds =
-      BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  step.at_shortest = step.at_longest = {};
+  speeds = wanted;
   const bool is_free =
       (speeds.array() >= bounds.lowest.array()).all() && (speeds.array() <= bounds.highest.array()).all();
   if (is_free) return;
-  speeds = NearestWithin(bounds, step.law.metric, speeds);
+  speeds = NearestWithin(bounds, step.law.metric, wanted);
   for (int i = 0; i < kLegCount; ++i) {
     step.at_shortest[static_cast<size_t>(i)] = speeds[i] <= bounds.lowest[i];
     step.at_longest[static_cast<size_t>(i)] = speeds[i] >= bounds.highest[i];
   }
 }
 
-void KeepSpeeds(const JointLimitOptions& limits, ServoStep& step) {
+// One factor for all joints that keeps the fastest at the limit, if none is that small already.
+void Slow(const JointLimitOptions& limits, ServoStep& step) {
   int fastest = 0;
   const double largest = step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(&fastest);
-  if (largest <= limits.speed_limit_m_per_s) return;
+  if (step.speed_factor * largest <= limits.speed_limit_m_per_s) return;
   step.speed_factor = limits.speed_limit_m_per_s / largest;
   step.fastest_leg = fastest;
+}
+
+// What is slowed down for the speed limit comes no farther than its slow speed leads: a range must not turn
+// it aside before. So the bounds count for the speeds as they are when slowed down.
+void KeepLimits(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
+                ServoStep& step) {
+  SpeedBounds bounds =
+      BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  const Vector6d wanted = step.joint_speeds_m_per_s;
+  HoldWithin(bounds, wanted, step);
+  Slow(limits, step);
+  if (step.speed_factor < 1 && (step.at_shortest | step.at_longest).any()) {
+    bounds.lowest /= step.speed_factor;
+    bounds.highest /= step.speed_factor;
+    HoldWithin(bounds, wanted, step);
+    Slow(limits, step);
+  }
   step.joint_speeds_m_per_s *= step.speed_factor;
   // Rounding must not lead beyond the limit.
   step.joint_speeds_m_per_s =
@@ -73,8 +91,7 @@ ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const Law
   step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
   step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
   SlowNearSingularity(options, step);
-  KeepRanges(model, input, options.limits, step);
-  KeepSpeeds(options.limits, step);
+  KeepLimits(model, input, options.limits, step);
   return step;
 }
 

@@ -13,6 +13,7 @@ namespace legible {
 namespace {
 
 constexpr double kTimeSlack_s = 1e-9;   // clocks are sums of periods
+constexpr double kLongestMemory_s = 1;  // older readings and images end it
 constexpr double kFollowedShare = 0.2;  // of a commanded way that a drive makes at least if it follows
 constexpr double kLeastWay_m = 5e-5;    // that says anything about following
 constexpr double kSureWay_m = 2e-4;     // that is more than the noise of readings
@@ -162,27 +163,42 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   if (!start_s_) {
     start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
     seen_at_readings_ = input.seen;
+    ways_.push_back({input.time_s, Vector6d::Zero()});
     before_ = input;
     return;
   }
   const Vector6d way_m = (input.time_s - before_->time_s) * commanded_m_per_s;
   commanded_way_m_ += way_m;
   way_since_readings_m_ += way_m;
-  // What nothing new comes after is not unanswered: it is late.
-  unanswered_by_readings_m_ += (input.readings.time_s - before_->readings.time_s) * commanded_m_per_s;
-  unanswered_by_images_m_ += (input.seen.time_s - before_->seen.time_s) * commanded_m_per_s;
+  ways_.push_back({input.time_s, commanded_way_m_});
+  while (ways_.size() > 2 && ways_[1].time_s < input.time_s - kLongestMemory_s) ways_.pop_front();
+  const Vector6d way_at_readings_m = CommandedWayAt(input.readings.time_s);
+  const Vector6d way_at_image_m = CommandedWayAt(input.seen.time_s);
   if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
     readings_changed_s_ = input.readings.time_s;
-    unanswered_by_readings_m_.setZero();
+    answered_by_readings_m_ = way_at_readings_m;
     seen_at_readings_ = input.seen;
     // What was commanded after they were taken is still ahead of them.
     way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
-    unanswered_by_images_m_.setZero();
+    answered_by_images_m_ = way_at_image_m;
   }
+  // What was commanded after they were taken is not unanswered.
+  unanswered_by_readings_m_ = way_at_readings_m - answered_by_readings_m_;
+  unanswered_by_images_m_ = way_at_image_m - answered_by_images_m_;
   before_ = input;
+}
+
+Vector6d Supervisor::CommandedWayAt(double time_s) const {
+  if (time_s <= ways_.front().time_s) return ways_.front().way_m;
+  const auto after = std::find_if(ways_.begin(), ways_.end(),
+                                  [time_s](const CommandedWay& way) { return way.time_s >= time_s; });
+  if (after == ways_.end()) return ways_.back().way_m;
+  const CommandedWay& before = *(after - 1);
+  const double share = (time_s - before.time_s) / (after->time_s - before.time_s);
+  return before.way_m + share * (after->way_m - before.way_m);
 }
 
 Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
@@ -249,8 +265,11 @@ std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
   if (readings_stand && is_still)
     return Ended(ServoEnd::kDrivesDoNotMove,
                  fmt::format("neither joint readings nor images show any motion though {}: "
-                             "the drives do not move",
-                             way_text(by_readings)));
+                             "the drives do not move{}",
+                             way_text(by_readings),
+                             HasNoise(input.seen) ? ", or the joint readings are frozen and the images too "
+                                                    "noisy to tell"
+                                                  : ""));
   if (readings_stand)
     return Ended(ServoEnd::kFrozenReadings,
                  fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
@@ -290,7 +309,7 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
   if (HasArrived(input, step))
     return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
                                                    ErrorText(step.law.error), ErrorText(options_.tolerance)));
-  if (Grows(input, step.law.error))
+  if (Grows(input, step))
     return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
                                                     ErrorText(step.law.error),
                              ErrorText(smallest_errors_[EdgesBehind(input)])));
@@ -314,10 +333,13 @@ std::bitset<2 * kLegCount> Supervisor::EdgesBehind(const CycleInput& input) cons
   return edges;
 }
 
-bool Supervisor::Grows(const CycleInput& input, double error) {
+bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
+  const double error = step.law.error;
   double& smallest = smallest_errors_.try_emplace(EdgesBehind(input), error).first->second;
   smallest = std::min(smallest, error);
-  const double allowed = options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance;
+  constexpr double kNoises = 3;  // what noise leaves is no growth
+  const double allowed = std::max(options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance,
+                                  kNoises * step.law.error_noise);
   if (error <= allowed) {
     growing_since_s_.reset();
     return false;

@@ -103,8 +103,9 @@ class Supervisor {
   // Those that an error in the image is the mean over; none where the error is no matter of edges.
   std::bitset<2 * kLegCount> EdgesBehind(const CycleInput& input) const;
   std::string WhyTooLate(const ServoStep& step) const;
-  bool Grows(const CycleInput& input, double error);
+  bool Grows(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
+  Vector6d CommandedWayAt(double time_s) const;
   bool IsOnItsWay() const;
   std::bitset<kLegCount> MostlyHeld(std::bitset<kLegCount> Moment::*held) const;
   double WaySinceImages() const;
@@ -118,7 +119,14 @@ class Supervisor {
   std::optional<CycleInput> before_;
   double readings_changed_s_ = 0, images_changed_s_ = 0;
   Vector6d way_since_readings_m_ = Vector6d::Zero();
-  // Commanded between the first and the newest of readings and images that are the same.
+  struct CommandedWay {
+    double time_s;
+    Vector6d way_m;
+  };
+  std::deque<CommandedWay> ways_;  // of the last moments, as far back as readings and images may be old
+  // Commanded before the first of readings and images that are the same was taken, and from there to the
+  // newest.
+  Vector6d answered_by_readings_m_ = Vector6d::Zero(), answered_by_images_m_ = Vector6d::Zero();
   Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
   Vector6d unanswered_by_images_m_ = Vector6d::Zero();
   SeenEdges seen_at_readings_;  // when these last changed

@@ -108,6 +108,7 @@ std::vector<Naming> NamingsOf(const Fault& fault) {
       return {{ServoEnd::kBadReadings, "are not numbers"}};
     case FaultKind::kReadingsFrozen:
       return {{ServoEnd::kFrozenReadings, "the joint readings have not changed"},
+              {ServoEnd::kDrivesDoNotMove, "or the joint readings are frozen"},
               {ServoEnd::kStalled, "frozen joint readings"}};
     case FaultKind::kLinkLost:
       return {{ServoEnd::kLinkLost, "the link to the robot is lost"}};

@@ -152,7 +152,7 @@ TEST(ServoController, EndsOnReadingsThatAreFrozen) {
   const History run = RunOf(trial);
   EXPECT_EQ(run.Last().end, ServoEnd::kFrozenReadings);
   EXPECT_THAT(run.Last().reason, HasSubstr("the joint readings have not changed"));
-  EXPECT_THAT(run.Last().reason, HasSubstr("frozen, for the images change"));
+  EXPECT_THAT(run.Last().reason, HasSubstr("frozen, for the images show motion"));
   trial.options.step.law.mode = ControlMode::kJoints;  // looks at no image
   const History blind = RunOf(trial);
   EXPECT_EQ(blind.Last().end, ServoEnd::kFrozenReadings);

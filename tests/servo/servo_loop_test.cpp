@@ -139,8 +139,7 @@ TEST(RunServo, EndsOnEachFaultWithAReasonThatNamesIt) {
     FaultCase at_once = one;
     at_once.fault.from_s = 0;
     if (one.fault.kind == FaultKind::kFramesDropped) {  // no image ever
-      at_once.end = ServoEnd::kLinkLost;
-      at_once.words = "has not given an image";
+      at_once.words = "no image has come from the camera within 1 s";
     }
     if (one.fault.kind == FaultKind::kFramesLate) continue;  // below
     ExpectEnd({}, at_once);
@@ -148,7 +147,7 @@ TEST(RunServo, EndsOnEachFaultWithAReasonThatNamesIt) {
 }
 
 TEST(RunServo, NamesLateFramesFromTheFirstOneOn) {
-  ExpectEnd({}, {{FaultKind::kFramesLate, 0}, ServoEnd::kLinkLost, "has not given an image"});
+  ExpectEnd({}, {{FaultKind::kFramesLate, 0}, ServoEnd::kStaleImages, "the newest is 0.20 s old"});
 }
 
 TEST(RunServo, RidesOutFaultsThatAreShort) {
