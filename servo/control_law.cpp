@@ -320,8 +320,9 @@ void ControlLawOptions::Check() const {
 }
 
 bool LooksAtImages(const ControlLawOptions& options) {
-  const bool by_readings = options.mode == ControlMode::kJoints ||
-                           (options.mode == ControlMode::kPose && options.pose_source == PoseSource::kReadings);
+  const bool by_readings =
+      options.mode == ControlMode::kJoints ||
+      (options.mode == ControlMode::kPose && options.pose_source == PoseSource::kReadings);
   return !by_readings;
 }
 

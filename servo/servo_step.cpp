@@ -56,8 +56,7 @@ void Slow(const JointLimitOptions& limits, ServoStep& step) {
 // it aside before. So the bounds count for the speeds as they are when slowed down.
 void KeepLimits(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
                 ServoStep& step) {
-  SpeedBounds bounds =
-      BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  SpeedBounds bounds = BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
   const Vector6d wanted = step.joint_speeds_m_per_s;
   HoldWithin(bounds, wanted, step);
   Slow(limits, step);

@@ -163,6 +163,7 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   if (!start_s_) {
     start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
     seen_at_readings_ = input.seen;
+    readings_at_images_m_ = input.readings.joint_readings_m;
     ways_.push_back({input.time_s, Vector6d::Zero()});
     before_ = input;
     return;
@@ -184,6 +185,7 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
     answered_by_images_m_ = way_at_image_m;
+    readings_at_images_m_ = input.readings.joint_readings_m;
   }
   // What was commanded after they were taken is not unanswered.
   unanswered_by_readings_m_ = way_at_readings_m - answered_by_readings_m_;
@@ -217,10 +219,10 @@ Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
 
 std::string Supervisor::WhyTooLate(const ServoStep& step) const {
   const std::string error = last_.is_waiting ? "" : ": " + ErrorText(step.law.error) + " left";
-  const std::string waits =
-      waits_ == 0 ? ""
-                  : fmt::format("; it waited in {:.0f} % of its cycles, last because {}",
-                                100.0 * waits_ / cycles_, why_waited_);
+  const std::string waits = waits_ == 0
+                                ? ""
+                                : fmt::format("; it waited in {:.0f} % of its cycles, last because {}",
+                                              100.0 * waits_ / cycles_, why_waited_);
   const std::string limits = DescribeLimits(step);
   return fmt::format("not converged within {:.1f} s{}{}{}", options_.timeout_s, error, waits,
                      limits.empty() ? "" : "; " + limits);
@@ -252,35 +254,39 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
 
 // Whether readings and images answer what is commanded.
 std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
-  const double images_for_s = input.time_s - images_changed_s_;
-  const double readings_for_s = input.time_s - readings_changed_s_;
-  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
+  const bool looks = LooksAtImages(law_);
   const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
+  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
-  const bool images_stand = LooksAtImages(law_) && by_images.way_m > options_.unanswered_m;
-  const bool is_still = LooksAtImages(law_) && !HaveMoved(seen_at_readings_, input.seen);
+  const bool images_stand = looks && by_images.way_m > options_.unanswered_m;
   const auto way_text = [](const FarthestLeg& farthest) {
     return fmt::format("leg {} was commanded by {:.1f} mm", farthest.leg + 1, 1e3 * farthest.way_m);
   };
-  if (readings_stand && is_still)
+  const bool seem_to_stand = readings_stand && looks && !HaveMoved(seen_at_readings_, input.seen);
+  if (seem_to_stand || (images_stand && !HaveJointsMovedSinceImages()))
     return Ended(ServoEnd::kDrivesDoNotMove,
-                 fmt::format("neither joint readings nor images show any motion though {}: "
-                             "the drives do not move{}",
-                             way_text(by_readings),
-                             HasNoise(input.seen) ? ", or the joint readings are frozen and the images too "
-                                                    "noisy to tell"
-                                                  : ""));
+                 fmt::format("neither joint readings nor images show any motion though {}: the drives do not "
+                             "move{}",
+                             way_text(readings_stand ? by_readings : by_images),
+                             readings_stand && HasNoise(input.seen)
+                                 ? ", or the joint readings are frozen and the images too noisy to tell"
+                                 : ""));
   if (readings_stand)
     return Ended(ServoEnd::kFrozenReadings,
                  fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
-                             readings_for_s, way_text(by_readings),
-                             LooksAtImages(law_) ? ", for the images show motion" : ", or the drives do not move"));
-  const bool repeats = LooksAtImages(law_) && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
+                             input.time_s - readings_changed_s_, way_text(by_readings),
+                             looks ? ", for the images show motion" : ", or the drives do not move"));
+  const double images_for_s = input.time_s - images_changed_s_;
+  const bool repeats = looks && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
   if (images_stand || repeats)
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s{}: they are frozen", images_for_s,
                              images_stand ? " though " + way_text(by_images) : ", not even by their noise"));
   return std::nullopt;
+}
+
+bool Supervisor::HaveJointsMovedSinceImages() const {
+  return (before_->readings.joint_readings_m - readings_at_images_m_).cwiseAbs().maxCoeff() > kSureWay_m;
 }
 
 // Whether the law had what it needs. It may lack edges for a moment.
@@ -310,8 +316,8 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
     return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
                                                    ErrorText(step.law.error), ErrorText(options_.tolerance)));
   if (Grows(input, step))
-    return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
-                                                    ErrorText(step.law.error),
+    return Ended(ServoEnd::kErrorGrows,
+                 fmt::format("the error grows: {} after {} at its smallest", ErrorText(step.law.error),
                              ErrorText(smallest_errors_[EdgesBehind(input)])));
   return JudgeStall(input, step);
 }
@@ -338,8 +344,9 @@ bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
   double& smallest = smallest_errors_.try_emplace(EdgesBehind(input), error).first->second;
   smallest = std::min(smallest, error);
   constexpr double kNoises = 3;  // what noise leaves is no growth
-  const double allowed = std::max(options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance,
-                                  kNoises * step.law.error_noise);
+  const double allowed =
+      std::max(options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance,
+               kNoises * step.law.error_noise);
   if (error <= allowed) {
     growing_since_s_.reset();
     return false;
@@ -350,8 +357,9 @@ bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
 
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
-  recent_.push_back({input.time_s, EdgesBehind(input), step.law.error, step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
-                     step.speed_factor < 1, step.at_shortest, step.at_longest, input.readings.joint_readings_m, commanded_way_m_});
+  recent_.push_back({input.time_s, EdgesBehind(input), step.law.error,
+                     step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(), step.speed_factor < 1, step.at_shortest,
+                     step.at_longest, input.readings.joint_readings_m, commanded_way_m_});
   if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
   const double middle_s = input.time_s - options_.stall_s / 2;
   double sums[2] = {0, 0}, counts[2] = {0, 0};
@@ -403,27 +411,21 @@ std::bitset<kLegCount> Supervisor::MostlyHeld(std::bitset<kLegCount> Moment::*he
   return mostly;
 }
 
-// How far a joint has moved since the images changed last, as far back as the last moments go.
-double Supervisor::WaySinceImages() const {
-  const auto then = std::find_if(recent_.begin(), recent_.end(), [this](const Moment& moment) {
-    return moment.time_s >= images_changed_s_;
-  });
-  return (recent_.back().readings_m - then->readings_m).cwiseAbs().maxCoeff();
-}
-
 Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   const double images_for_s = recent_.back().time_s - images_changed_s_;
-  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && WaySinceImages() > kSureWay_m)
-    return Ended(ServoEnd::kFrozenImages,
-                 fmt::format("the images have not changed for {:.2f} s though the joints moved: they are frozen",
-                             images_for_s));
+  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && HaveJointsMovedSinceImages())
+    return Ended(
+        ServoEnd::kFrozenImages,
+        fmt::format("the images have not changed for {:.2f} s though the joints moved: they are frozen",
+                    images_for_s));
   const std::string error = fmt::format("the error no longer falls: {} left", ErrorText(step.law.error));
   if (LooksAtImages(law_) && Farthest(unanswered_by_readings_m_).way_m > kLeastWay_m &&
       HaveMoved(seen_at_readings_, before_->seen))
-    return Ended(ServoEnd::kFrozenReadings,
-                 fmt::format("the joint readings have not changed for {:.2f} s: they are frozen, for the images "
-                             "show motion",
-                             recent_.back().time_s - readings_changed_s_));
+    return Ended(
+        ServoEnd::kFrozenReadings,
+        fmt::format("the joint readings have not changed for {:.2f} s: they are frozen, for the images "
+                    "show motion",
+                    recent_.back().time_s - readings_changed_s_));
   ServoStep held;
   held.at_shortest = MostlyHeld(&Moment::at_shortest);
   held.at_longest = MostlyHeld(&Moment::at_longest);

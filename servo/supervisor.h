@@ -97,6 +97,7 @@ class Supervisor {
 
   std::optional<Verdict> JudgeInput(const CycleInput& input) const;
   std::optional<Verdict> JudgeAnswers(const CycleInput& input) const;
+  bool HaveJointsMovedSinceImages() const;
   std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeProgress(const CycleInput& input, const ServoStep& step);
   bool HasArrived(const CycleInput& input, const ServoStep& step);
@@ -108,7 +109,6 @@ class Supervisor {
   Vector6d CommandedWayAt(double time_s) const;
   bool IsOnItsWay() const;
   std::bitset<kLegCount> MostlyHeld(std::bitset<kLegCount> Moment::*held) const;
-  double WaySinceImages() const;
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
 
@@ -129,7 +129,8 @@ class Supervisor {
   Vector6d answered_by_readings_m_ = Vector6d::Zero(), answered_by_images_m_ = Vector6d::Zero();
   Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
   Vector6d unanswered_by_images_m_ = Vector6d::Zero();
-  SeenEdges seen_at_readings_;  // when these last changed
+  SeenEdges seen_at_readings_;  // when these last changed, and the readings when the images did
+  Vector6d readings_at_images_m_ = Vector6d::Zero();
   Vector6d commanded_way_m_ = Vector6d::Zero();
   // By the edges behind them: other edges, other errors.
   std::unordered_map<std::bitset<2 * kLegCount>, double> smallest_errors_;

@@ -39,8 +39,9 @@ struct TrueMotion {
 //
 // Faults: see FaultKind. A lost link makes every call but Stop throw RigError (WaitUntil after the time has
 // gone on); the drives miss it and go to rest by themselves kWatchdog_s after it was lost, unless it is back
-// by then and has brought a command. Stop does not reach them before it is back. An end stop that is hit holds the joint. If the true robot comes into a
-// singular pose, or one that its legs cannot take, all is over: every call but Stop throws RigError.
+// by then and has brought a command. Stop does not reach them before it is back. An end stop that is hit
+// holds the joint. If the true robot comes into a singular pose, or one that its legs cannot take, all is
+// over: every call but Stop throws RigError.
 class SimulatedRig : public Rig {
  public:
   static constexpr double kWatchdog_s = 0.1;

@@ -69,18 +69,18 @@ void DrawRig(Generator& generator, ServoTrial& trial) {
   options.seed = generator();
   options.image_count = 1;
   const double around_rad = Chance(generator, 0.5) ? 0.08 : Uniform(generator, -3.1, 3.1);
-  options.camera_from_base =
-      LookAt({0.95 * std::cos(around_rad), 0.95 * std::sin(around_rad), Uniform(generator, 0.2, 0.4)},
-             {0, 0, 0.13});
-  for (double* error : {&options.geometry_error_m, &options.joint_offset_error_m, &options.radius_error_m,
-                        &options.camera_error_px, &options.camera_position_error_m,
-                        &options.camera_rotation_error_rad})
+  options.camera_from_base = LookAt(
+      {0.95 * std::cos(around_rad), 0.95 * std::sin(around_rad), Uniform(generator, 0.2, 0.4)}, {0, 0, 0.13});
+  for (double* error :
+       {&options.geometry_error_m, &options.joint_offset_error_m, &options.radius_error_m,
+        &options.camera_error_px, &options.camera_position_error_m, &options.camera_rotation_error_rad})
     *error *= trial.model_error;
   const SyntheticSession drawn = GenerateSession(options);
   trial.truth = {drawn.true_robot, drawn.true_camera, drawn.true_camera_from_base};
-  trial.model = trial.model_error == 0
-                    ? MakeServoModel(drawn.true_robot, drawn.true_camera, drawn.true_camera_from_base)
-                    : MakeServoModel(drawn.nominal_robot, drawn.nominal_camera, drawn.nominal_camera_from_base);
+  trial.model =
+      trial.model_error == 0
+          ? MakeServoModel(drawn.true_robot, drawn.true_camera, drawn.true_camera_from_base)
+          : MakeServoModel(drawn.nominal_robot, drawn.nominal_camera, drawn.nominal_camera_from_base);
 }
 
 void DrawWay(Generator& generator, ServoTrial& trial) {
@@ -89,8 +89,8 @@ void DrawWay(Generator& generator, ServoTrial& trial) {
   const GoughStewart& robot = trial.model.robot;
   trial.is_goal_in_range = !Chance(generator, 0.2);
   const double margin_m = trial.options.step.limits.range_margin_m + kClose_m;
-  trial.goal_pose = trial.is_goal_in_range ? DrawPose(generator, robot, margin_m)
-                                           : DrawPoseAtAnEnd(generator, robot, 0.02);
+  trial.goal_pose =
+      trial.is_goal_in_range ? DrawPose(generator, robot, margin_m) : DrawPoseAtAnEnd(generator, robot, 0.02);
   trial.goal = GoalAtPose(trial.model, trial.goal_pose);
   if (trial.model_error == 0 || Chance(generator, 0.5)) return;
   // Taught by showing: a pose of the true robot.
@@ -129,13 +129,15 @@ void DrawLaw(Generator& generator, ServoTrial& trial) {
   law.is_weighted = Chance(generator, 0.7);
   if (Chance(generator, 0.25)) {
     const int count = 3 + OneOf(generator, 3);
-    while (static_cast<int>(law.legs.count()) > count) law.legs.reset(static_cast<size_t>(OneOf(generator, kLegCount)));
+    while (static_cast<int>(law.legs.count()) > count)
+      law.legs.reset(static_cast<size_t>(OneOf(generator, kLegCount)));
   }
   if (Chance(generator, 0.5)) {
     trial.options.step.gain = AdaptiveGain::Constant(Uniform(generator, 0.5, 4));
   } else {
     const double far_per_s = Uniform(generator, 0.5, 3);
-    trial.options.step.gain = {far_per_s + Uniform(generator, 0.5, 3), far_per_s, Uniform(generator, 50, 1000)};
+    trial.options.step.gain = {far_per_s + Uniform(generator, 0.5, 3), far_per_s,
+                               Uniform(generator, 50, 1000)};
   }
   trial.options.supervision.timeout_s = kTimeout_s;
 }
@@ -200,7 +202,8 @@ std::string ServoTrial::Describe() const {
   const ControlLawOptions& law = options.step.law;
   const DriveOptions& drives = simulation.drives;
   std::string text = fmt::format(
-      "{} by {}, model error {:.2f}, goal {}, lag {:.0f} ms, friction {:.2f}/{:.2f} mm/s, noise {:.2f} px {:.0f} um, "
+      "{} by {}, model error {:.2f}, goal {}, lag {:.0f} ms, friction {:.2f}/{:.2f} mm/s, noise {:.2f} px "
+      "{:.0f} um, "
       "gain {:.1f} to {:.1f} 1/s, limit {:.0f} mm/s",
       ToString(law.mode), law.mode == ControlMode::kJoints ? "all legs" : LegList(law.legs), model_error,
       is_goal_in_range ? "in range" : "near or beyond range", 1e3 * drives.lag_s,
