@@ -34,10 +34,11 @@ bool HasNoise(const SeenEdges& seen) {
   return !seen.edges.empty() && std::all_of(seen.edges.begin(), seen.edges.end(), has_noise);
 }
 
-// Whether the edges have moved by more than the noise of both images can do: by their normalised squares, two
-// an edge, of which noise leaves a mean of 1.
+// Whether the edges have moved by more than the noise of both images can do, and by more than a reading's
+// step: by their normalised squares, two an edge, of which noise leaves a mean of 1.
 bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
   constexpr double kMostMeanSquare = 2.5;
+  constexpr double kNoMotion_rad = 3e-5;
   const EdgesByLeg edges_before = ByLeg(before);
   double squares = 0;
   int count = 0;
@@ -46,9 +47,9 @@ bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
     if (!same) continue;
     const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(edge.normal);
     const Eigen::Matrix2d covariance =
+        kNoMotion_rad * kNoMotion_rad * Eigen::Matrix2d::Identity() +
         tangents.transpose() * (edge.normal_covariance + same->normal_covariance) * tangents;
     const Eigen::Vector2d moved = tangents.transpose() * (edge.normal - same->normal);
-    if (moved.isZero(0)) continue;  // with or without noise
     squares += moved.dot(covariance.inverse() * moved);
     count += 2;
   }
@@ -401,13 +402,14 @@ bool Supervisor::IsOnItsWay() const {
   return limited > kShare * count && made_m > kShare * most_m;
 }
 
-// The legs that are in the set in more than half of the last moments.
+// The legs that are in the set in most moments of the later half.
 std::bitset<kLegCount> Supervisor::MostlyHeld(std::bitset<kLegCount> Moment::*held) const {
+  const size_t first = recent_.size() / 2;
   std::array<size_t, kLegCount> counts{};
-  for (const Moment& moment : recent_)
-    for (size_t leg = 0; leg < kLegCount; ++leg) counts[leg] += (moment.*held)[leg];
+  for (size_t i = first; i < recent_.size(); ++i)
+    for (size_t leg = 0; leg < kLegCount; ++leg) counts[leg] += (recent_[i].*held)[leg];
   std::bitset<kLegCount> mostly;
-  for (size_t leg = 0; leg < kLegCount; ++leg) mostly[leg] = 2 * counts[leg] > recent_.size();
+  for (size_t leg = 0; leg < kLegCount; ++leg) mostly[leg] = 2 * counts[leg] > recent_.size() - first;
   return mostly;
 }
 

@@ -209,9 +209,25 @@ bool IsHonest(const Outcome& outcome) {
   }
 }
 
-// Nothing in the way: there is no honest end but to converge.
-bool MustConverge(const ServoTrial& trial) {
-  return trial.model_error == 0 && !trial.fault && trial.is_goal_in_range && !trial.HasFriction();
+// Nothing is in the way.
+bool IsUnhindered(const ServoTrial& trial) {
+  return trial.model_error == 0 && !trial.fault && trial.is_goal_in_range && !trial.HasFriction() &&
+         trial.options.step.law.legs.all();
+}
+
+// How far it is from the goal: what is left of each reading, and the edges of all legs without noise.
+struct LeftToGo {
+  double joints_m = 0, edges_px = 0;
+};
+LeftToGo LeftOf(const Outcome& outcome) {
+  const ServoTrial& trial = outcome.trial;
+  const Rigid3& pose = outcome.at_rest.base_from_platform;
+  const Vector6d to_go_m =
+      InverseKinematics(trial.truth.robot, trial.goal_pose) - outcome.at_rest.joint_readings_m;
+  const SeenEdges seen = EdgesOf(trial.truth.robot, trial.truth.camera_from_base, pose);
+  const LawResult law = EvaluateLaw(trial.model, trial.goal,
+                                    {seen, outcome.at_rest.joint_readings_m, Vector6d::Zero(), pose}, {});
+  return {to_go_m.cwiseAbs().maxCoeff(), law.edge_error_px};
 }
 
 // What is wrong with a run; empty: nothing.
@@ -267,11 +283,33 @@ void PrintTables(const std::vector<Outcome>& outcomes) {
     const std::string end = ToString(outcome.run.end);
     ++by_fault[trial.fault ? kFaultNames[static_cast<size_t>(trial.fault->kind)].second : "no fault"][end];
     ++by_mode[ModeOf(trial)][end];
-    if (MustConverge(trial)) ++unhindered[ModeOf(trial)][end];
+    if (IsUnhindered(trial)) ++unhindered[ModeOf(trial)][end];
   }
   Print("ends by fault", by_fault);
   Print("ends by mode", by_mode);
   Print("perfect model, no fault", unhindered);
+}
+
+// Of converged runs with nothing in the way, by mode.
+void PrintWhatIsLeft(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, std::array<std::vector<double>, 2>> by_mode;
+  for (const Outcome& outcome : outcomes) {
+    if (!IsUnhindered(outcome.trial) || outcome.run.end != ServoEnd::kConverged) continue;
+    const LeftToGo left = LeftOf(outcome);
+    by_mode[ModeOf(outcome.trial)][0].push_back(1e3 * left.joints_m);
+    by_mode[ModeOf(outcome.trial)][1].push_back(left.edges_px);
+  }
+  std::cout
+      << "\nleft to go               joints, mm: median    95 %    most  edges, px: median    95 %    most";
+  for (auto& [mode, left] : by_mode) {
+    std::cout << fmt::format("\n{:<24}", mode);
+    for (std::vector<double>& values : left) {
+      std::sort(values.begin(), values.end());
+      std::cout << fmt::format("            {:>7.3f} {:>7.3f} {:>7.3f}", values[values.size() / 2],
+                               values[values.size() * 95 / 100], values.back());
+    }
+  }
+  std::cout << std::endl;
 }
 
 TEST(SafetyStatistics, NoRunCrossesALimitAndEachEndsWithItsReason) {
@@ -286,9 +324,10 @@ TEST(SafetyStatistics, NoRunCrossesALimitAndEachEndsWithItsReason) {
   const std::vector<Outcome> outcomes = RunAll(seed, runs);
   std::cout << fmt::format("{} runs in {:.0f} s\n", runs, watch.Seconds());
   PrintTables(outcomes);
+  PrintWhatIsLeft(outcomes);
   for (size_t i = 0; i < outcomes.size(); ++i) {
     const std::string complaint = Complaint(outcomes[i]);
-    const bool fails = MustConverge(outcomes[i].trial) && outcomes[i].run.end != ServoEnd::kConverged;
+    const bool fails = IsUnhindered(outcomes[i].trial) && outcomes[i].run.end != ServoEnd::kConverged;
     if (complaint.empty() && !fails) continue;
     std::cout << fmt::format("run {}: {}: {} ({}) at {:.2f} s\n    {}\n", i,
                              complaint.empty() ? "NOT CONVERGED" : complaint, ToString(outcomes[i].run.end),
