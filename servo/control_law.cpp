@@ -53,6 +53,21 @@ EdgesByLeg OfLegs(const SeenEdges& seen, const std::bitset<kLegCount>& legs) {
   return edges;
 }
 
+// Which of the goal's legs are not seen, or by half.
+void NoteUnseen(const Situation& now, LawResult& result) {
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    int wanted = 0, seen = 0;
+    for (size_t edge = 0; edge < 2; ++edge) {
+      // The pose is fitted to whatever is seen.
+      const bool is_wanted = now.options.mode == ControlMode::kPose || now.goal.edges[leg][edge];
+      wanted += is_wanted;
+      seen += is_wanted && now.seen[leg][edge];
+    }
+    result.unseen[leg] = now.options.legs[leg] && seen == 0 && wanted > 0;
+    result.half_seen[leg] = now.options.legs[leg] && seen == 1 && wanted == 2;
+  }
+}
+
 LegDirections DirectionsOf(const ServoModel& model, const Rigid3& base_from_platform) {
   LegDirections directions;
   for (size_t i = 0; i < kLegCount; ++i)
@@ -263,6 +278,13 @@ void ControlLawOptions::Check() const {
     throw std::invalid_argument("ControlLawOptions: the least conditioning must be in [0, 1)");
 }
 
+bool LooksAtImages(const ControlLawOptions& options) {
+  const bool by_readings =
+      options.mode == ControlMode::kJoints ||
+      (options.mode == ControlMode::kPose && options.pose_source == PoseSource::kReadings);
+  return !by_readings;
+}
+
 void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
   const auto demand = [](bool is_there, const char* what) {
     if (!is_there) throw std::invalid_argument(what);
@@ -291,6 +313,7 @@ LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawI
   const ImageErrors errors = MeasureImageErrors(model, now.seen, goal);
   result.edge_error_px = errors.edge_px;
   result.direction_error_rad = errors.direction_rad;
+  if (LooksAtImages(options)) NoteUnseen(now, result);
   result.error = kNan;
   if (!JudgeRobot(model, input, options, result)) return result;
   now.length_m = LegLengths(model.robot, input.joint_readings_m);
