@@ -1,13 +1,16 @@
 #include "apps/interruption.h"
 
+#include <array>
 #include <csignal>
 
 namespace legible {
 namespace {
 
 volatile std::sig_atomic_t has_come = 0;
+
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 using Handler = void (*)(int);
-Handler on_interrupt = SIG_DFL, on_terminate = SIG_DFL;
+std::array<Handler, kSignals.size()> handlers_before;
 
 void Note(int) { has_come = 1; }
 
@@ -15,13 +18,11 @@ void Note(int) { has_come = 1; }
 
 Interruption::Interruption() {
   has_come = 0;
-  on_interrupt = std::signal(SIGINT, Note);
-  on_terminate = std::signal(SIGTERM, Note);
+  for (size_t i = 0; i < kSignals.size(); ++i) handlers_before[i] = std::signal(kSignals[i], Note);
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_terminate);
+  for (size_t i = 0; i < kSignals.size(); ++i) std::signal(kSignals[i], handlers_before[i]);
 }
 
 bool Interruption::HasCome() const { return has_come != 0; }

@@ -3,7 +3,8 @@
 
 namespace legible {
 
-// While it lives, SIGINT and SIGTERM are noted instead of ending the process. One at a time.
+// While it lives, SIGINT, SIGTERM, SIGHUP (a terminal that is closed) and SIGQUIT are noted instead of ending
+// the process. One at a time.
 class Interruption {
  public:
   Interruption();

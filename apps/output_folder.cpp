@@ -49,8 +49,7 @@ void OrInputError(const fs::path& folder, Action action) {
   try {
     action();
   } catch (const fs::filesystem_error& error) {
-    throw InputError(folder, 0, "cannot be written: " + error.code().message(),
-                     "name another folder with --out");
+    throw InputError(folder, 0, "cannot be written: " + error.code().message(), "name another folder");
   }
 }
 
@@ -61,7 +60,7 @@ void DemandWritable(const fs::path& folder, const std::vector<std::string>& name
   for (const std::string& name : names)
     if (fs::is_directory(folder / name))
       throw InputError(folder / name, 0, "is a folder where a file is to be written",
-                       "remove it, or name another folder with --out");
+                       "remove it, or name another folder");
 }
 
 void WriteTogether(const fs::path& folder, const std::vector<std::string>& names,

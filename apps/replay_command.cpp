@@ -17,7 +17,8 @@ namespace {
 constexpr char kDescription[] = "Run the law of a servo's log again, and compare its commands";
 constexpr char kFooter[] =
     R"(LOG is the folder that `legible servo` wrote. The law gets what came in then, cycle by cycle, and must command
-the same speeds, bit for bit, and end the same way.
+the same speeds, bit for bit, and end the same way, for the same reason; an end that came from outside (the user,
+a lost link) is not its own.
 
 Exit codes:
   0  it does
@@ -28,8 +29,19 @@ struct Comparison {
   int cycles = 0, different = 0;
   std::optional<int> first_different;
   double largest_difference_m_per_s = 0;
-  Verdict end;
+  Verdict end;  // the law's own
+  std::string recorded_end, recorded_reason;
+  bool ends_alike = true;
+
+  bool IsSame() const { return different == 0 && ends_alike; }
 };
+
+// Whether a law that runs on can have been ended like this.
+bool CameFromOutside(const RecordedServo& recorded) {
+  for (const ServoEnd end : {ServoEnd::kLinkLost, ServoEnd::kStoppedByUser, ServoEnd::kFailed})
+    if (recorded.end == ToString(end)) return true;
+  return recorded.cycles.empty();
+}
 
 Comparison Replay(const RecordedServo& recorded) {
   ServoController controller(recorded.setup.model, recorded.setup.goal, recorded.setup.options);
@@ -45,6 +57,12 @@ Comparison Replay(const RecordedServo& recorded) {
     comparison.end = output.verdict;
     ++comparison.cycles;
   }
+  comparison.recorded_end = recorded.end;
+  comparison.recorded_reason = recorded.reason;
+  const bool is_own = comparison.end.end != ServoEnd::kRunning;
+  comparison.ends_alike =
+      is_own ? ToString(comparison.end.end) == recorded.end && comparison.end.reason == recorded.reason
+             : CameFromOutside(recorded);
   return comparison;
 }
 
@@ -56,18 +74,25 @@ nlohmann::ordered_json ComparisonJson(const Comparison& comparison) {
            comparison.first_different ? ordered_json(*comparison.first_different) : ordered_json()},
           {"largest_difference_m_per_s", comparison.largest_difference_m_per_s},
           {"status", ToString(comparison.end.end)},
-          {"reason", comparison.end.reason}};
+          {"reason", comparison.end.reason},
+          {"recorded_status", comparison.recorded_end},
+          {"recorded_reason", comparison.recorded_reason},
+          {"ends_alike", comparison.ends_alike}};
 }
 
 std::string ComparisonText(const Comparison& comparison) {
-  const std::string end = comparison.end.end == ServoEnd::kRunning
-                              ? "not ended by itself"
-                              : fmt::format("{}: {}", ToString(comparison.end.end), comparison.end.reason);
-  if (comparison.different == 0)
-    return fmt::format("{}: the same commands, bit for bit\n{}\n", Plural(comparison.cycles, "cycle"), end);
-  return fmt::format("{} of {} differ, the first in cycle {}, by {:.3g} m/s at most\n{}\n",
-                     comparison.different, Plural(comparison.cycles, "cycle"), *comparison.first_different,
-                     comparison.largest_difference_m_per_s, end);
+  const std::string recorded = fmt::format("{}: {}", comparison.recorded_end, comparison.recorded_reason);
+  std::string text =
+      comparison.different == 0
+          ? fmt::format("{}: the same commands, bit for bit\n", Plural(comparison.cycles, "cycle"))
+          : fmt::format("{} of {} differ, the first in cycle {}, by {:.3g} m/s at most\n",
+                        comparison.different, Plural(comparison.cycles, "cycle"), *comparison.first_different,
+                        comparison.largest_difference_m_per_s);
+  if (!comparison.ends_alike)
+    return text + fmt::format("ends otherwise: {}: {}\n  the log: {}\n", ToString(comparison.end.end),
+                              comparison.end.reason, recorded);
+  const bool is_own = comparison.end.end != ServoEnd::kRunning;
+  return text + fmt::format("{}{}\n", is_own ? "" : "ended from outside: ", recorded);
 }
 
 }  // namespace
@@ -91,8 +116,8 @@ const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
 int RunReplay(const ReplaySettings& settings, const Console& console) {
   const Comparison comparison = Replay(ReadServoLog(settings.log));
   console.out << (settings.prints_json ? JsonText(ComparisonJson(comparison)) : ComparisonText(comparison));
-  if (comparison.different == 0) return kExitSuccess;
-  console.err << "legible: the law commands other speeds than the log has\n";
+  if (comparison.IsSame()) return kExitSuccess;
+  console.err << "legible: the law commands other speeds than the log has, or ends otherwise\n";
   return kExitNoResult;
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 
-#include "core/rig/scene_camera.h"
 #include "core/rig/simulated_rig.h"
 #include "datasets/simulation_file.h"
 
@@ -15,7 +14,6 @@ namespace legible {
 struct OpenedRig {
   std::filesystem::path truth_file;
   SimulatedTruth truth;
-  std::unique_ptr<SceneCamera> camera;
   std::unique_ptr<SimulatedRig> rig;
 };
 

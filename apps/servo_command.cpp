@@ -22,11 +22,16 @@ const std::vector<std::string> kLogFiles = {"result.json", "setup.json", "cycles
                                             "report.html"};
 constexpr char kFrames[] = "frames";
 
-// An earlier log's frames are replaced; a folder of this name that is no log's is left alone.
-void DemandFramesAreOurs(const std::filesystem::path& folder) {
-  if (std::filesystem::exists(folder / kFrames) && !std::filesystem::exists(folder / "setup.json"))
-    throw InputError(folder / kFrames, 0, "is there already, and is no log's",
-                     "name another folder with --log");
+// An earlier log is replaced with its frames; a folder that holds something else of these names is left
+// alone.
+void DemandNothingElseThere(const std::filesystem::path& folder) {
+  if (IsServoLog(folder)) return;
+  std::vector<std::string> names = kLogFiles;
+  names.emplace_back(kFrames);
+  for (const std::string& name : names)
+    if (std::filesystem::exists(folder / name))
+      throw InputError(folder / name, 0, "is there already, and no servo's log with it",
+                       "name another folder with --log");
 }
 
 std::string PoseErrorText(const nlohmann::ordered_json& error) {
@@ -38,50 +43,73 @@ std::string PoseErrorText(const nlohmann::ordered_json& error) {
 
 std::string Summary(const ServoSettings& settings, const FinishedServo& finished,
                     const nlohmann::ordered_json& document) {
-  const LawResult last =
-      finished.log.cycles.empty() ? LawResult() : finished.log.cycles.back().cycle.output.step.law;
+  std::string errors;
+  if (!finished.log.cycles.empty()) {
+    const LawResult& last = finished.log.cycles.back().cycle.output.step.law;
+    errors = fmt::format("; edges {:.3f} px rms from the goal's, directions {:.3f} mrad", last.edge_error_px,
+                         1e3 * last.direction_error_rad);
+  }
   return fmt::format(
       "{}: {}\n"
-      "  {} cycles, {:.2f} s; edges {:.3f} px rms from the goal's, directions {:.3f} mrad\n"
+      "  {} cycles, {:.2f} s{}\n"
       "{}"
       "  {} are in {}\n",
-      ToString(finished.run.end), finished.run.reason, finished.run.cycles, finished.run.time_s,
-      last.edge_error_px, 1e3 * last.direction_error_rad, PoseErrorText(document.at("final_pose_error")),
+      ToString(finished.run.end), finished.run.reason, finished.run.cycles, finished.run.time_s, errors,
+      PoseErrorText(document.at("final_pose_error")),
       "result.json, setup.json, cycles.csv, edges.csv and report.html", settings.log.string());
 }
 
-}  // namespace
-
-int RunServoCommand(const ServoSettings& settings, const Console& console) {
-  DemandWritable(settings.log, kLogFiles);
-  DemandFramesAreOurs(settings.log);
-  PreparedServo prepared = PrepareServo(settings);
-  std::vector<std::string> names = kLogFiles;
-  names.emplace_back(kFrames);
+// Drives and writes; all files come together at the end.
+struct Servoed {
   FinishedServo finished;
   nlohmann::ordered_json document;
-  ProgressLine progress(console);
+};
+Servoed ServoAndWrite(PreparedServo& prepared, ProgressLine& progress) {
+  const ServoSettings& settings = prepared.settings;
+  std::vector<std::string> names = kLogFiles;
+  names.emplace_back(kFrames);
+  Servoed servoed;
+  const Interruption interruption;  // a second one must not keep the log from being written
   WriteTogether(settings.log, names, [&](const std::filesystem::path& folder) {
     std::optional<std::filesystem::path> frames;
     if (settings.keeps_images) {
       frames = folder / kFrames;
       std::filesystem::create_directory(*frames);
     }
-    finished = DriveServo(prepared, frames, progress);
-    document = ServoJson(prepared, finished);
-    WriteServoLog(folder, finished.log);
-    WriteFileAtomically(folder / "result.json", JsonText(document));
+    servoed.finished = DriveServo(prepared, frames, interruption, progress);
+    servoed.document = ServoJson(prepared, servoed.finished);
+    WriteServoLog(folder, servoed.finished.log);
+    WriteFileAtomically(folder / "result.json", JsonText(servoed.document));
     WriteFileAtomically(folder / "report.html",
-                        RenderServoPage(ServoReportData(prepared, finished, document)));
+                        RenderServoPage(ServoReportData(prepared, servoed.finished, servoed.document)));
   });
+  return servoed;
+}
+
+}  // namespace
+
+int RunServoCommand(const ServoSettings& settings, const Console& console) {
+  DemandWritable(settings.log, kLogFiles);
+  DemandNothingElseThere(settings.log);
+  PreparedServo prepared = PrepareServo(settings);
+  ProgressLine progress(console);
+  Servoed servoed;
+  try {
+    servoed = ServoAndWrite(prepared, progress);
+  } catch (const InputError& error) {  // what was driven is no bad input any more
+    progress.Clear();
+    console.err << "legible: the robot was driven, but its log cannot be written: " << error.what() << "\n";
+    return kExitNoResult;
+  }
   progress.Clear();
   console.err << WarningsText(prepared.warnings);
-  const bool has_converged = finished.run.end == ServoEnd::kConverged;
+  const ServoRun& run = servoed.finished.run;
+  const bool has_converged = run.end == ServoEnd::kConverged;
   if (settings.prints_json)
-    console.out << JsonText(document);
+    console.out << JsonText(servoed.document);
   else
-    console.out << Summary(settings, finished, document);
-  if (!has_converged) console.err << "legible: stopped: " << finished.run.reason << "\n";
+    console.out << Summary(settings, servoed.finished, servoed.document);
+  if (!has_converged) console.err << "legible: stopped: " << run.reason << "\n";
   return has_converged ? kExitSuccess : kExitNoResult;
 }
 

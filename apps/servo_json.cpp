@@ -32,15 +32,30 @@ ordered_json TimesJson(const std::vector<double>& times_s) {
   return {{"median", Percentile(times_s, 0.5)}, {"p99", Percentile(times_s, 0.99)}};
 }
 
-// The least of the cycles in which the law had speeds.
+// The least of the cycles that have a number.
 template <typename F>
 ordered_json Least(const ServoLog& log, F value) {
   std::optional<double> least;
   for (const LoggedCycle& logged : log.cycles) {
-    const LawResult& law = logged.cycle.output.step.law;
-    if (law.status == LawStatus::kOk) least = std::min(least.value_or(value(law)), value(law));
+    const double of_cycle = value(logged.cycle.output.step.law);
+    if (std::isfinite(of_cycle)) least = std::min(least.value_or(of_cycle), of_cycle);
   }
   return least ? ordered_json(*least) : ordered_json();
+}
+
+// Of the last cycle; null where there was none.
+template <typename F>
+ordered_json Last(const ServoLog& log, F value) {
+  return log.cycles.empty() ? ordered_json() : ordered_json(value(log.cycles.back().cycle.output));
+}
+
+ordered_json MissingJson(const FinishedServo& finished) {
+  ordered_json missing = ordered_json::array();
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    for (size_t edge = 0; edge < 2; ++edge)
+      if (!finished.missing[leg][edge].empty())
+        missing.push_back({{"leg", leg + 1}, {"edge", edge + 1}, {"reason", finished.missing[leg][edge]}});
+  return missing;
 }
 
 ordered_json PoseErrorJson(const PreparedServo& prepared, const FinishedServo& finished) {
@@ -52,7 +67,8 @@ ordered_json PoseErrorJson(const PreparedServo& prepared, const FinishedServo& f
 ordered_json PathJson(const PreparedServo& prepared, const FinishedServo& finished) {
   std::vector<Eigen::Vector3d> places;
   for (const LoggedCycle& logged : finished.log.cycles)
-    places.push_back(logged.cycle.output.step.law.base_from_platform.translation);
+    places.push_back(
+        logged.true_base_from_platform.value_or(logged.cycle.output.step.law.base_from_platform).translation);
   if (places.empty()) return nullptr;
   const auto& goal = prepared.setup.goal.base_from_platform;
   const PathShape shape = ShapeOfPath(places, goal ? goal->translation : places.back());
@@ -71,29 +87,31 @@ ordered_json LegsJson(const std::bitset<kLegCount>& legs) {
 ordered_json ServoJson(const PreparedServo& prepared, const FinishedServo& finished) {
   const ServoLog& log = finished.log;
   const ControlLawOptions& options = prepared.setup.options.step.law;
-  const LawResult last = log.cycles.empty() ? LawResult() : log.cycles.back().cycle.output.step.law;
   const auto speeds = OfCycles(
       log, [](const ServoCycle& cycle) { return cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff(); });
-  return {{"status", ToString(finished.run.end)},
-          {"reason", finished.run.reason},
-          {"mode", ToString(options.mode)},
-          {"unit", UnitOf(options.mode)},
-          {"legs", LegsJson(options.legs)},
-          {"iterations", finished.run.cycles},
-          {"time_s", finished.run.time_s},
-          {"final_error", last.error},
-          {"tolerance", log.cycles.empty() ? 0 : log.cycles.back().cycle.output.verdict.tolerance},
-          {"final_edge_error_px", last.edge_error_px},
-          {"final_direction_error_rad", last.direction_error_rad},
-          {"final_pose_error", PoseErrorJson(prepared, finished)},
-          {"path", PathJson(prepared, finished)},
-          {"max_joint_speed_m_per_s", Percentile(speeds, 1)},
-          {"min_singular_value", Least(log, [](const LawResult& law) { return law.singular_values[5]; })},
-          {"min_conditioning", Least(log, [](const LawResult& law) { return law.Conditioning(); })},
-          {"min_robot_conditioning", Least(log, [](const LawResult& law) { return law.robot_conditioning; })},
-          {"compute_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.law_s; }))},
-          {"look_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.look_s; }))},
-          {"warnings", prepared.warnings}};
+  return {
+      {"status", ToString(finished.run.end)},
+      {"reason", finished.run.reason},
+      {"mode", ToString(options.mode)},
+      {"unit", UnitOf(options.mode)},
+      {"legs", LegsJson(options.legs)},
+      {"iterations", finished.run.cycles},
+      {"time_s", finished.run.time_s},
+      {"final_error", Last(log, [](const CycleOutput& last) { return last.step.law.error; })},
+      {"tolerance", Last(log, [](const CycleOutput& last) { return last.verdict.tolerance; })},
+      {"final_edge_error_px", Last(log, [](const CycleOutput& last) { return last.step.law.edge_error_px; })},
+      {"final_direction_error_rad",
+       Last(log, [](const CycleOutput& last) { return last.step.law.direction_error_rad; })},
+      {"final_pose_error", PoseErrorJson(prepared, finished)},
+      {"path", PathJson(prepared, finished)},
+      {"max_joint_speed_m_per_s", Percentile(speeds, 1)},
+      {"min_singular_value", Least(log, [](const LawResult& law) { return law.singular_values[5]; })},
+      {"min_conditioning", Least(log, [](const LawResult& law) { return law.Conditioning(); })},
+      {"min_robot_conditioning", Least(log, [](const LawResult& law) { return law.robot_conditioning; })},
+      {"compute_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.law_s; }))},
+      {"look_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.look_s; }))},
+      {"not_seen", MissingJson(finished)},
+      {"warnings", prepared.warnings}};
 }
 
 }  // namespace legible

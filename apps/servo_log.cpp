@@ -66,7 +66,7 @@ Vector6d CoordinatesOf(const Rigid3& pose) {
   return coordinates;
 }
 
-CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged) {
+CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged, const ControlLawOptions& law) {
   const ServoCycle& cycle = logged.cycle;
   const ServoStep& step = cycle.output.step;
   CsvRowWriter row;
@@ -78,6 +78,7 @@ CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged) {
   row.Add("edges", static_cast<double>(cycle.input.seen.edges.size()));
   row.AddAll(ByLegNames("v", "m_per_s"), cycle.output.joint_speeds_m_per_s);
   row.Add("status", std::string(ToString(cycle.output.verdict.end)));
+  row.Add("waiting", cycle.output.verdict.is_waiting ? 1.0 : 0.0);
   row.Add("error", step.law.error);
   row.Add("tolerance", cycle.output.verdict.tolerance);
   row.Add("edge_error_px", step.law.edge_error_px);
@@ -96,6 +97,7 @@ CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged) {
   row.Add("look_s", cycle.look_s);
   row.Add("law_s", cycle.law_s);
   row.Add("limits", DescribeLimits(step));
+  row.Add("reason", cycle.output.verdict.reason + WhyNoSpeeds(step, law));
   return row;
 }
 
@@ -114,28 +116,31 @@ CsvRowWriter EdgeRow(size_t number, const SeenEdge& edge) {
 // A table: comments, the header, rows.
 class CsvText {
  public:
-  explicit CsvText(const std::string& comments) : text_(comments) {}
-  void Add(const CsvRowWriter& row) {
-    if (is_empty_) text_ += row.header() + "\n";
-    is_empty_ = false;
-    text_ += row.row() + "\n";
-  }
+  CsvText(const std::string& comments, const CsvRowWriter& any_row)
+      : text_(comments + any_row.header() + "\n") {}
+  void Add(const CsvRowWriter& row) { text_ += row.row() + "\n"; }
   const std::string& text() const { return text_; }
 
  private:
   std::string text_;
-  bool is_empty_ = true;
 };
 
 std::string CyclesText(const ServoLog& log) {
-  CsvText table(fmt::format(
-      "# legible servo, schema {}: one row a cycle. Units by the columns' names; `error` and `tolerance` in "
-      "{}.\n"
-      "# time_s: of the command, by the rig's clock; q: joint readings; v: commanded joint speeds;\n"
-      "# x .. rz: base_from_platform by the readings, rotation vector; true_: as a simulated rig knows it;\n"
-      "# look_s, law_s: computing times.\n",
-      kServoLogSchema, UnitOf(log.setup.options.step.law.mode)));
-  for (size_t i = 0; i < log.cycles.size(); ++i) table.Add(CycleRow(i, log.cycles[i]));
+  const ControlLawOptions& law = log.setup.options.step.law;
+  CsvText table(
+      fmt::format(
+          "# legible servo, schema {}: one row a cycle. Units by the columns' names; `error` and `tolerance` "
+          "in "
+          "{}.\n"
+          "# time_s: of the command, by the rig's clock; q: joint readings; v: commanded joint speeds;\n"
+          "# x .. rz: base_from_platform by the readings, rotation vector; true_: as a simulated rig knows "
+          "it, in the\n"
+          "# model's frames;\n"
+          "# smallest_singular_value: of the interaction matrix as the law weighs it, 1/m;\n"
+          "# look_s, law_s: computing times; reason: why it ended or waits.\n",
+          kServoLogSchema, UnitOf(law.mode)),
+      CycleRow(0, {}, law));
+  for (size_t i = 0; i < log.cycles.size(); ++i) table.Add(CycleRow(i, log.cycles[i], law));
   return table.text();
 }
 
@@ -146,7 +151,7 @@ std::string EdgesText(const ServoLog& log) {
                   "# unit, away from the leg; c: its covariance; begin, end: the stretch seen, normalised "
                   "image coordinates\n"
                   "# without distortion. Legs and edges count from 1.\n",
-                  kServoLogSchema));
+                  kServoLogSchema), EdgeRow(0, {}));
   for (size_t i = 0; i < log.cycles.size(); ++i)
     for (const SeenEdge& edge : log.cycles[i].cycle.input.seen.edges) table.Add(EdgeRow(i, edge));
   return table.text();
@@ -178,7 +183,7 @@ std::vector<RecordedCycle> ReadCycles(const std::filesystem::path& file) {
   columns.required = {"cycle", "time_s", "readings_time_s", "image_time_s", "status"};
   for (const auto& names : {ByLegNames("q", "m"), ByLegNames("v", "m_per_s")})
     columns.required.insert(columns.required.end(), names.begin(), names.end());
-  for (const std::string& name : Columns(CycleRow(0, {}).header()))
+  for (const std::string& name : Columns(CycleRow(0, {}, {}).header()))
     if (std::find(columns.required.begin(), columns.required.end(), name) == columns.required.end())
       columns.optional.push_back(name);
   const std::string text = ReadTextFile(file);
@@ -218,14 +223,30 @@ void ReadEdges(const std::filesystem::path& file, std::vector<RecordedCycle>& cy
   }
 }
 
-ServoSetup ReadSetup(const std::filesystem::path& file) {
+// What `read` makes of the document in a file; whatever it finds wrong is bad input.
+template <typename F>
+auto ReadDocument(const std::filesystem::path& file, const F& read) {
+  const std::string text = ReadTextFile(file);
   try {
-    return SetupFromJson(nlohmann::ordered_json::parse(ReadTextFile(file)));
+    return read(nlohmann::ordered_json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file, 0, fmt::format("is no set-up of a servo: {}", error.what()), kMend);
+    throw InputError(file, 0, fmt::format("is no document of a servo: {}", error.what()), kMend);
   } catch (const std::invalid_argument& error) {
-    throw InputError(file, 0, fmt::format("is no set-up of a servo: {}", error.what()), kMend);
+    throw InputError(file, 0, fmt::format("is no document of a servo: {}", error.what()), kMend);
   }
+}
+
+ServoSetup ReadSetup(const std::filesystem::path& file) { return ReadDocument(file, SetupFromJson); }
+
+void ReadResult(const std::filesystem::path& file, RecordedServo& recorded) {
+  const int cycles = ReadDocument(file, [&recorded](const nlohmann::ordered_json& document) {
+    recorded.end = document.at("status").get<std::string>();
+    recorded.reason = document.at("reason").get<std::string>();
+    return document.at("iterations").get<int>();
+  });
+  if (static_cast<size_t>(cycles) != recorded.cycles.size())
+    throw InputError(
+        file, 0, fmt::format("has {} iterations, and cycles.csv {}", cycles, recorded.cycles.size()), kMend);
 }
 
 }  // namespace
@@ -236,9 +257,19 @@ void WriteServoLog(const std::filesystem::path& folder, const ServoLog& log) {
   WriteFileAtomically(folder / "edges.csv", EdgesText(log));
 }
 
+bool IsServoLog(const std::filesystem::path& folder) {
+  try {
+    ReadSetup(folder / "setup.json");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 RecordedServo ReadServoLog(const std::filesystem::path& folder) {
-  RecordedServo recorded{ReadSetup(folder / "setup.json"), ReadCycles(folder / "cycles.csv")};
+  RecordedServo recorded{ReadSetup(folder / "setup.json"), ReadCycles(folder / "cycles.csv"), "", ""};
   ReadEdges(folder / "edges.csv", recorded.cycles);
+  ReadResult(folder / "result.json", recorded);
   return recorded;
 }
 

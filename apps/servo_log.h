@@ -21,13 +21,16 @@ struct ServoSetup {
 
 struct LoggedCycle {
   ServoCycle cycle;
-  std::optional<Rigid3> true_base_from_platform;  // where the rig knows it
+  std::optional<Rigid3> true_base_from_platform;  // where the rig knows it; in the model's frames
 };
 
 struct ServoLog {
   ServoSetup setup;
   std::vector<LoggedCycle> cycles;
 };
+
+// Whether the folder holds what WriteServoLog writes.
+bool IsServoLog(const std::filesystem::path& folder);
 
 // setup.json, cycles.csv and edges.csv. Numbers read back as the same bits.
 void WriteServoLog(const std::filesystem::path& folder, const ServoLog& log);
@@ -41,8 +44,9 @@ struct RecordedCycle {
 struct RecordedServo {
   ServoSetup setup;
   std::vector<RecordedCycle> cycles;
+  std::string end, reason;  // by result.json
 };
-// Throws InputError for what is no log, or a damaged one.
+// Reads result.json too. Throws InputError for what is no log, a damaged one, or one that is cut off.
 RecordedServo ReadServoLog(const std::filesystem::path& folder);
 
 }  // namespace legible

@@ -12,8 +12,7 @@ namespace {
 
 constexpr char kDescription[] = "Drive a robot to a goal by the edges of its legs";
 constexpr char kFooter[] =
-    R"(MODEL is the model.yaml of `legible calibrate`; a robot.yaml will do together with --camera, or with
---mode joints and a simulated rig's own camera to watch.
+    R"(MODEL is the model.yaml of `legible calibrate`; a robot.yaml will do together with --camera.
 
 The goal is a pose, joint readings, or an image that the camera took with the robot at the goal: then no pose
 has to be known. The robot stops, and says why, when it has arrived and when it must not go on: the error grows
@@ -25,7 +24,7 @@ Written to the folder of --log, all together at the end:
   setup.json   model, goal and options
   cycles.csv   each cycle: readings, errors, commands, limits
   edges.csv    each edge of each cycle
-  images/      with --keep-images
+  frames/      each image, with --keep-images
   report.html  all that to look at
 
 Exit codes:
@@ -123,8 +122,7 @@ void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
   AddText(
       command, "--gain", "GAIN|ZERO:FAR:SLOPE",
       [&step](const std::string& text) { step.gain = ParseGain(text); },
-      "1/s; or adaptive: the gain at the goal, that from afar,\nand how fast it falls by m to go (6:2:300); "
-      "2 "
+      "1/s; or adaptive: the gain at the goal, that from afar,\nand how fast it falls by m to go; 4:2:400 "
       "without it");
   const auto add_positive = [&command](const std::string& name, const std::string& unit, double& value,
                                        const std::string& description) {
@@ -139,10 +137,13 @@ void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
   add_positive("--period", "S", settings.period_s, "From command to command, s");
   AddText(
       command, "--tolerance", "ERROR",
-      [&supervision](const std::string& text) { supervision.tolerance = ParsePositive(text); },
+      [&supervision](const std::string& text) {
+        supervision.tolerance = ParsePositive(text);
+        supervision.tolerance_in_noise = 0;
+      },
       "Converged when the error of the mode stays below: px of\nedges, rad of directions, m of poses and "
-      "joints;\nwithout it 0.1 px, 2e-3 rad, 1e-4 m, 5e-5 m, or where it\nno longer falls and is what noise "
-      "leaves");
+      "joints. Without\nit 0.1 px, 2e-3 rad, 1e-4 m, 5e-5 m, or where the error\nno longer falls and is what "
+      "the noise of the edges leaves");
 }
 
 void AddRigOptions(CLI::App& command, ServoSettings& settings) {

@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/interruption.h"
 #include "apps/program.h"
 #include "core/rig/simulated_edges.h"
 #include "core/rig/tracked_edges.h"
 #include "core/robots/mechanism.h"
+#include "core/stopwatch.h"
 #include "datasets/atomic_file.h"
 #include "datasets/camera_file.h"
 #include "datasets/input_error.h"
@@ -35,14 +35,18 @@ ServoModel LoadModel(const ServoSettings& settings) {
   return MakeServoModel(model.robot, *model.camera, *model.camera_from_base);
 }
 
-void DemandInRange(const ServoSettings& settings, const GoughStewart& robot, const Vector6d& readings_m) {
+// Within what the servo's margin leaves of the joint ranges.
+void DemandInRange(const ServoSettings& settings, GoughStewart robot, const Vector6d& readings_m) {
+  const double margin_m = settings.options.step.limits.range_margin_m;
+  for (Leg& leg : robot.legs)
+    leg.joint_range_m = {leg.joint_range_m[0] + margin_m, leg.joint_range_m[1] - margin_m};
   const std::vector<int> out = JointsOutOfRange(robot, readings_m);
   if (out.empty()) return;
   const Leg& leg = robot.legs[static_cast<size_t>(out[0])];
   throw InputError(
       settings.model, 0,
       fmt::format("the goal is out of reach: leg {} would read {:.4f} m, beyond its range of {:.4g} "
-                  "to {:.4g} m",
+                  "to {:.4g} m without the margin",
                   out[0] + 1, readings_m[out[0]], leg.joint_range_m[0], leg.joint_range_m[1]),
       "give a goal within the joint ranges");
 }
@@ -90,28 +94,31 @@ ServoGoal GoalOf(const ServoSettings& settings, const ServoModel& model) {
   return GoalAtPose(model, base_from_platform);
 }
 
-// Where the true robot is at the goal, as far as it follows from what was given.
+// Where the true robot is at the goal, in the model's frames, as far as it follows from what was given.
 std::optional<Rigid3> TrueGoal(const ServoSettings& settings, const ServoModel& model,
                                const GoughStewart& truth) {
-  if (settings.goal.joints_m) {
-    const auto found = ForwardKinematics(truth, *settings.goal.joints_m, truth.home);
-    if (found.status == ForwardKinematicsStatus::kConverged) return found.base_from_platform;
-    return std::nullopt;
-  }
-  if (!settings.goal.pose) return std::nullopt;
-  const Vector6d& pose = *settings.goal.pose;
-  return InFramesOf(truth, model.robot, {RotationFromVector(pose.tail<3>()), pose.head<3>()});
+  if (settings.goal.pose)
+    return Rigid3{RotationFromVector(settings.goal.pose->tail<3>()), settings.goal.pose->head<3>()};
+  if (!settings.goal.joints_m) return std::nullopt;
+  const auto found = ForwardKinematics(truth, *settings.goal.joints_m, truth.home);
+  if (found.status != ForwardKinematicsStatus::kConverged) return std::nullopt;
+  return InFramesOf(model.robot, truth, found.base_from_platform);
 }
 
 // Keeps what a report shows of the run.
 class Recorder {
  public:
-  Recorder(const SimulatedRig& rig, const TrackedEdgeSource* images, FinishedServo& finished,
+  Recorder(const PreparedServo& prepared, const TrackedEdgeSource* images, FinishedServo& finished,
            const std::optional<std::filesystem::path>& frame_folder)
-      : rig_(rig), images_(images), finished_(finished), frame_folder_(frame_folder) {}
+      : rig_(*prepared.rig.rig),
+        model_(prepared.setup.model.robot),
+        images_(images),
+        finished_(finished),
+        frame_folder_(frame_folder) {}
 
-  void Take(const ServoCycle& cycle) {
-    finished_.log.cycles.push_back({cycle, rig_.true_motion().base_from_platform});
+  void Take(ServoCycle cycle) {
+    if (images_) cycle.look_s = images_->track_s();  // without the time that the picture took to come
+    finished_.log.cycles.push_back({cycle, TruePose()});
     if (finished_.log.cycles.size() == 1) Keep("start");
     if (images_ && frame_folder_ && images_->image().time_s != last_frame_s_) {
       last_frame_s_ = images_->image().time_s;
@@ -127,23 +134,87 @@ class Recorder {
     finished_.pictures.push_back(std::move(picture));
   }
 
+  // In the model's frames.
+  Rigid3 TruePose() const {
+    return InFramesOf(model_, rig_.truth().robot, rig_.true_motion().base_from_platform);
+  }
+
  private:
   const SimulatedRig& rig_;
+  const GoughStewart& model_;
   const TrackedEdgeSource* images_;
   FinishedServo& finished_;
   std::optional<std::filesystem::path> frame_folder_;
   double last_frame_s_ = -1;
 };
 
-std::string LiveText(const ServoCycle& cycle, ControlMode mode) {
-  const LawResult& law = cycle.output.step.law;
-  const std::string limits = DescribeLimits(cycle.output.step);
-  const std::string waiting =
-      cycle.output.verdict.is_waiting ? "; waiting: too little is seen" : std::string();
-  return fmt::format("{:6.2f} s  error {:.4g} {}  {} edges  fastest joint {:.2f} mm/s{}{}",
-                     cycle.input.time_s, law.error, UnitOf(mode), cycle.input.seen.edges.size(),
-                     1e3 * cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
-                     limits.empty() ? "" : "  " + limits, waiting);
+std::string LiveText(const ServoCycle& cycle, double start_s, const ControlLawOptions& law) {
+  const ServoStep& step = cycle.output.step;
+  const std::string limits = DescribeLimits(step);
+  std::string text = fmt::format(
+      "{:6.2f} s  error {:.4g} {}  {} edges  fastest joint {:.2f} mm/s{}", cycle.input.time_s - start_s,
+      step.law.error, UnitOf(law.mode), cycle.input.seen.edges.size(),
+      1e3 * cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff(), limits.empty() ? "" : "  " + limits);
+  if (cycle.output.verdict.is_waiting) text += "  waiting: " + WhyNoSpeeds(step, law);
+  return text;
+}
+
+// Shows the newest cycle, no more often than anyone can read.
+class LiveLine {
+ public:
+  LiveLine(ProgressLine& line, const ControlLawOptions& law) : line_(line), law_(law) {}
+
+  void Show(const ServoCycle& cycle) {
+    constexpr double kLeastPause_s = 0.1;
+    if (!start_s_) start_s_ = cycle.input.time_s;
+    if (shown_s_ && watch_.Seconds() - *shown_s_ < kLeastPause_s) return;
+    shown_s_ = watch_.Seconds();
+    line_.Show(LiveText(cycle, *start_s_, law_));
+  }
+
+ private:
+  ProgressLine& line_;
+  const ControlLawOptions& law_;
+  Stopwatch watch_;
+  std::optional<double> start_s_, shown_s_;
+};
+
+// Whatever goes wrong, the log has what there was: the rig is at rest then.
+ServoRun RunToItsEnd(SimulatedRig& rig, EdgeSource& source, ServoController& controller,
+                     const ServoLoopOptions& loop, const std::function<void(const ServoCycle&)>& record,
+                     const ServoLog& log) {
+  try {
+    return RunServo(rig, source, controller, loop, record);
+  } catch (const std::exception& error) {
+    ServoRun run;
+    run.end = ServoEnd::kFailed;
+    run.reason = std::string("the program failed: ") + error.what();
+    run.cycles = static_cast<int>(log.cycles.size());
+    if (!log.cycles.empty())
+      run.time_s = log.cycles.back().cycle.input.time_s - log.cycles.front().cycle.input.time_s;
+    return run;
+  }
+}
+
+void WaitForRest(Rig& rig) {
+  constexpr double kRest_s = 0.3;
+  try {
+    rig.WaitUntil(rig.Now() + kRest_s);
+  } catch (const RigError&) {  // said already, or of no more interest
+  }
+}
+
+std::string NumbersText(const Vector6d& numbers) {
+  return fmt::format("{} {} {} {} {} {}", numbers[0], numbers[1], numbers[2], numbers[3], numbers[4],
+                     numbers[5]);
+}
+
+// As it was asked for.
+std::string GoalText(const GoalSetting& goal) {
+  if (goal.pose) return "pose " + NumbersText(*goal.pose);
+  const std::string joints = goal.joints_m ? "joints " + NumbersText(*goal.joints_m) : "";
+  if (!goal.image) return joints;
+  return "image " + goal.image->string() + (joints.empty() ? "" : ", " + joints);
 }
 
 void DemandSameImageSize(const ServoSettings& settings, const Camera& model, const Camera& rig) {
@@ -166,8 +237,11 @@ PreparedServo PrepareServo(const ServoSettings& settings) {
   setup.goal = GoalOf(settings, setup.model);
   setup.options = settings.options;
   setup.period_s = settings.period_s;
-  setup.provenance = {
-      {"model", settings.model.string()}, {"rig", settings.rig}, {"program_version", ProgramVersion()}};
+  setup.provenance = {{"model", settings.model.string()},
+                      {"rig", settings.rig},
+                      {"edges_from", settings.is_image_free ? "simulation without images" : "images"},
+                      {"goal", GoalText(settings.goal)},
+                      {"program_version", ProgramVersion()}};
   prepared.true_goal = TrueGoal(settings, setup.model, prepared.rig.truth.truth.robot);
   try {
     DemandGoal(setup.goal, setup.options.step.law);
@@ -180,7 +254,7 @@ PreparedServo PrepareServo(const ServoSettings& settings) {
 }
 
 FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
-                         ProgressLine& progress) {
+                         const Interruption& interruption, ProgressLine& progress) {
   FinishedServo finished;
   finished.log.setup = prepared.setup;
   const ServoModel& model = prepared.setup.model;
@@ -194,17 +268,20 @@ FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::files
   EdgeSource& source = images ? static_cast<EdgeSource&>(*images) : *lines;
 
   ServoController controller(model, prepared.setup.goal, prepared.setup.options);
-  Recorder recorder(rig, images ? &*images : nullptr, finished, frame_folder);
-  const Interruption interruption;
+  Recorder recorder(prepared, images ? &*images : nullptr, finished, frame_folder);
+  LiveLine live(progress, prepared.setup.options.step.law);
   ServoLoopOptions loop;
   loop.period_s = prepared.setup.period_s;
   loop.is_stopped = [&interruption] { return interruption.HasCome(); };
-  finished.run = RunServo(rig, source, controller, loop, [&](const ServoCycle& cycle) {
+  const auto record = [&](const ServoCycle& cycle) {
     recorder.Take(cycle);
-    progress.Show(LiveText(cycle, prepared.setup.options.step.law.mode));
-  });
+    live.Show(cycle);
+  };
+  finished.run = RunToItsEnd(rig, source, controller, loop, record, finished.log);
   recorder.Keep("end");
-  finished.true_end = rig.true_motion().base_from_platform;
+  if (images && images->newest()) finished.missing = images->newest()->missing;
+  WaitForRest(rig);
+  finished.true_end = recorder.TruePose();
   return finished;
 }
 

@@ -1,10 +1,12 @@
 // A servo from the user's settings to all there is to say about it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/interruption.h"
 #include "apps/progress.h"
 #include "apps/rig_opening.h"
 #include "apps/servo_log.h"
@@ -25,7 +27,7 @@ struct PreparedServo {
   ServoSettings settings;
   OpenedRig rig;
   ServoSetup setup;
-  std::optional<Rigid3> true_goal;  // base_from_platform of the true robot, in its own frames
+  std::optional<Rigid3> true_goal;  // base_from_platform of the true robot, in the model's frames
   std::vector<std::string> warnings;
 };
 // Throws InputError for a model without camera, a goal out of the joint ranges or not to be seen, …
@@ -35,10 +37,12 @@ struct FinishedServo {
   ServoRun run;
   ServoLog log;
   std::vector<RunPicture> pictures;  // of the first and the last cycle
-  std::optional<Rigid3> true_end;
+  std::optional<Rigid3> true_end;    // at rest, in the model's frames
+  // Why edges that the last image does not show are missing: [leg][edge]; empty: they are not.
+  std::array<std::array<std::string, 2>, kLegCount> missing;
 };
 // With a frame folder each image is kept there as it comes.
 FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
-                         ProgressLine& progress);
+                         const Interruption& interruption, ProgressLine& progress);
 
 }  // namespace legible

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "apps/json_text.h"
 
@@ -125,21 +126,49 @@ void VisitOptions(Visitor& visit, T& options) {
   visit("timeout_s", options.supervision.timeout_s);
 }
 
-// Enumerators by their number: a log is for this program.
+// ---- Enumerators by their names.
+
 template <typename E>
-void ReadEnum(const ordered_json& json, E& value, int count) {
-  const int number = json.get<int>();
-  if (number < 0 || number >= count) throw std::invalid_argument("an enumerator that is not known");
-  value = static_cast<E>(number);
+struct NamedValue {
+  E value;
+  const char* name;
+};
+const std::vector<NamedValue<ControlMode>> kModes = {{ControlMode::kEdges, "edges"},
+                                                     {ControlMode::kDirections, "directions"},
+                                                     {ControlMode::kPose, "pose"},
+                                                     {ControlMode::kJoints, "joints"}};
+const std::vector<NamedValue<PoseSource>> kPoseSources = {{PoseSource::kReadings, "readings"},
+                                                          {PoseSource::kEdges, "edges"}};
+const std::vector<NamedValue<DirectionSource>> kDirectionSources = {{DirectionSource::kEdges, "edges"},
+                                                                    {DirectionSource::kModel, "model"}};
+const std::vector<NamedValue<LensModel>> kLenses = {{LensModel::kPinhole, "pinhole"},
+                                                    {LensModel::kBrownConrady, "brown-conrady"},
+                                                    {LensModel::kRational, "rational"}};
+
+template <typename E>
+std::string NameOf(const std::vector<NamedValue<E>>& names, E value) {
+  for (const NamedValue<E>& named : names)
+    if (named.value == value) return named.name;
+  throw std::invalid_argument("NameOf: an enumerator without a name");
+}
+
+template <typename E>
+E ValueOf(const std::vector<NamedValue<E>>& names, const ordered_json& json) {
+  const auto name = json.get<std::string>();
+  for (const NamedValue<E>& named : names)
+    if (named.name == name) return named.value;
+  throw std::invalid_argument("\"" + name + "\" is not known");
 }
 
 ordered_json OptionsToJson(const ServoOptions& options) {
   Writer write;
   const ControlLawOptions& law = options.step.law;
-  write.json["mode"] = static_cast<int>(law.mode);
-  write.json["pose_source"] = static_cast<int>(law.pose_source);
-  write.json["direction_source"] = static_cast<int>(law.direction_source);
-  write.json["legs"] = law.legs.to_ulong();
+  write.json["mode"] = NameOf(kModes, law.mode);
+  write.json["pose_source"] = NameOf(kPoseSources, law.pose_source);
+  write.json["direction_source"] = NameOf(kDirectionSources, law.direction_source);
+  write.json["legs"] = ordered_json::array();
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    if (law.legs[leg]) write.json["legs"].push_back(leg + 1);
   VisitOptions(write, options);
   return write.json;
 }
@@ -147,10 +176,15 @@ ordered_json OptionsToJson(const ServoOptions& options) {
 ServoOptions OptionsFromJson(const ordered_json& json) {
   ServoOptions options;
   ControlLawOptions& law = options.step.law;
-  ReadEnum(json.at("mode"), law.mode, 4);
-  ReadEnum(json.at("pose_source"), law.pose_source, 2);
-  ReadEnum(json.at("direction_source"), law.direction_source, 2);
-  law.legs = json.at("legs").get<unsigned long>();
+  law.mode = ValueOf(kModes, json.at("mode"));
+  law.pose_source = ValueOf(kPoseSources, json.at("pose_source"));
+  law.direction_source = ValueOf(kDirectionSources, json.at("direction_source"));
+  law.legs.reset();
+  for (const ordered_json& leg : json.at("legs")) {
+    if (leg.get<int>() < 1 || leg.get<int>() > kLegCount)
+      throw std::invalid_argument("legs count from 1 to 6");
+    law.legs.set(leg.get<size_t>() - 1);
+  }
   Reader read(json);
   VisitOptions(read, options);
   options.Check();
@@ -168,7 +202,7 @@ ordered_json ModelToJson(const ServoModel& model) {
   VisitCamera(camera, model.camera);
   camera.json["width_px"] = model.camera.width_px;
   camera.json["height_px"] = model.camera.height_px;
-  camera.json["lens"] = static_cast<int>(model.camera.lens);
+  camera.json["lens"] = NameOf(kLenses, model.camera.lens);
   return {{"robot", {{"name", model.robot.name}, {"home", ToJson(model.robot.home)}, {"legs", legs}}},
           {"camera", camera.json},
           {"camera_from_base", ToJson(model.camera_from_base)}};
@@ -188,7 +222,7 @@ ServoModel ModelFromJson(const ordered_json& json) {
   VisitCamera(read, camera);
   camera.width_px = camera_json.at("width_px").get<int>();
   camera.height_px = camera_json.at("height_px").get<int>();
-  camera.lens = static_cast<LensModel>(camera_json.at("lens").get<int>());
+  camera.lens = ValueOf(kLenses, camera_json.at("lens"));
   Rigid3 camera_from_base;
   FromJson(json.at("camera_from_base"), camera_from_base);
   return MakeServoModel(robot, camera, camera_from_base);

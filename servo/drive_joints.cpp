@@ -69,7 +69,10 @@ JointDrive DriveJoints(Rig& rig, const GoughStewart& robot, const Vector6d& join
   ServoController controller(MakeServoModel(robot, AnyCamera(), Rigid3()), goal, OptionsOf(options));
   NoEdges nothing;
   double to_go_m = INFINITY;
-  const ServoRun run = RunServo(rig, nothing, controller, {options.period_s, options.is_stopped},
+  ServoLoopOptions loop;
+  loop.period_s = options.period_s;
+  loop.is_stopped = options.is_stopped;
+  const ServoRun run = RunServo(rig, nothing, controller, loop,
                                 [&](const ServoCycle& cycle) { to_go_m = cycle.output.step.law.error; });
   JointDrive drive;
   drive.end = run.end;

@@ -126,6 +126,8 @@ const char* ToString(ServoEnd end) {
       return "link-lost";
     case ServoEnd::kStoppedByUser:
       return "stopped-by-user";
+    case ServoEnd::kFailed:
+      return "failed";
   }
   throw std::invalid_argument("ToString: not a ServoEnd");
 }

@@ -31,6 +31,7 @@ enum class ServoEnd {
   kTimeout,
   kLinkLost,
   kStoppedByUser,
+  kFailed,  // the program itself
 };
 // "converged", "stale-images", …
 const char* ToString(ServoEnd end);

@@ -36,7 +36,7 @@ struct SceneOptions {
   double ambient = 0.45;  // share of the light that comes from everywhere
   // Towards the main light, far away; any length: from the camera's right and from above.
   Eigen::Vector3d light_in_camera{1.16, -0.90, -0.70};
-  double leg_grey = 230;                          // brightness where the light falls perpendicularly
+  double leg_grey = 230;  // brightness where the light falls perpendicularly
   double plate_grey = 34;
   double joint_grey = 90;
   double ground_grey = 48;
