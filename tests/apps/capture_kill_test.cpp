@@ -1,12 +1,12 @@
 // `legible capture` as a process, killed at random moments: no session is broken, no image lost.
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <iostream>
 #include <map>
 #include <thread>
