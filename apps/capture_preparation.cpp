@@ -136,8 +136,8 @@ std::string ImageNameOf(const std::filesystem::path& file, const PoseRow& row) {
 
 // Throws for what the joints cannot reach, or would not come to from home.
 NamedPose PoseOf(const std::filesystem::path& file, const PoseRow& row, const GoughStewart& robot) {
-  const NamedPose pose{ImageNameOf(file, row),
-                       {RotationFromVector(row.coordinates.tail<3>()), row.coordinates.head<3>()}};
+  NamedPose pose{ImageNameOf(file, row),
+                 {RotationFromVector(row.coordinates.tail<3>()), row.coordinates.head<3>()}};
   const Vector6d readings_m = InverseKinematics(robot, pose.base_from_platform);
   const double margin_m = JointLimitOptions().range_margin_m;
   for (int i = 0; i < kLegCount; ++i) {

@@ -15,7 +15,9 @@ namespace {
 
 // Numbers of images from which a model is calibrated.
 constexpr std::array<size_t, 4> kCalibrateAt = {8, 12, 20, 40};
-constexpr size_t kMostScouts = 12;  // images by which the camera is found before a model is calibrated
+constexpr size_t kScoutsThatFind = 3;
+constexpr double kNearlyFound = 0.25;  // share of the range that is searched then
+constexpr size_t kMostScouts = 12;     // images by which the camera is found before a model is calibrated
 constexpr int kLeastEdges = 6;   // expected of a pose; small images show few, and looking for more takes long
 constexpr int kFewestEdges = 4;  // of an image that tells something
 
@@ -58,9 +60,12 @@ Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
   if (input_.start) {
     model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
   } else {
-    sighting.rough = Measure(model, name, image, joint_readings_m,
-                             FirstLookEdges(LegEdgeOptions(), TapePoseRange_px(input_.camera)))
-                         .observation;
+    // A few looks have found the camera nearly; further ones need not search as far, nor go as wrong.
+    const bool is_nearly_found = scouts_.size() >= kScoutsThatFind;
+    if (is_nearly_found) model = Scouted(std::nullopt);
+    const double range_px = TapePoseRange_px(input_.camera) * (is_nearly_found ? kNearlyFound : 1);
+    sighting.rough =
+        Measure(model, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), range_px)).observation;
     model = Scouted(*sighting.rough);
   }
   Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
@@ -84,11 +89,11 @@ Sighting SessionOutlook::Measure(const RigModel& model, const std::string& name,
   return sighting;
 }
 
-// The model that the first looks at all images so far, and at one more, lead to; else the drawing's.
-RigModel SessionOutlook::Scouted(const ImageObservation& one_more) const {
+// The model that the first looks at all images so far, and maybe at one more, lead to; else the drawing's.
+RigModel SessionOutlook::Scouted(const std::optional<ImageObservation>& one_more) const {
   LegCalibrationInput input = input_;
   input.images = scouts_;
-  if (input.images.size() < kMostScouts) input.images.push_back(one_more);
+  if (one_more && input.images.size() < kMostScouts) input.images.push_back(*one_more);
   const LegCalibration found = FirstLook(std::move(input), HeldParameters(), options_.threads);
   if (found.status != CalibrationStatus::kConverged)
     return {input_.drawing, input_.camera, input_.camera_from_base};

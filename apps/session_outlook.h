@@ -56,7 +56,7 @@ class SessionOutlook {
   void Propose(std::vector<ImageObservation> images);
   Sighting Measure(const RigModel& model, const std::string& name, const GrayImage& image,
                    const Vector6d& joint_readings_m, const LegEdgeOptions& options) const;
-  RigModel Scouted(const ImageObservation& one_more) const;
+  RigModel Scouted(const std::optional<ImageObservation>& one_more) const;
   bool Calibrate(const Session& session, size_t images);
   void Take(const Sighting& sighting);
   void AddToProposer(const ImageObservation& observation);

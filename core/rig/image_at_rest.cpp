@@ -14,6 +14,12 @@ constexpr double kMeansAgree_sigma = 3;
 constexpr double kAlwaysAgree_m = 2e-7;  // what no camera sees
 constexpr double kSameTime_s = 1e-9;     // clocks are sums of periods
 
+// A whole number.
+double HalfOf(size_t count) {
+  const size_t half = count / 2;
+  return static_cast<double>(half);
+}
+
 class Rest {
  public:
   Rest(Rig& rig, const RestOptions& options) : rig_(rig), options_(options), start_s_(rig.Now()) {}
@@ -54,8 +60,8 @@ class Rest {
 
   bool IsStill() const {
     if (static_cast<int>(readings_.size()) < options_.readings) return false;
-    const double allowed_m = kMeansAgree_sigma * options_.reading_sigma_m *
-                             std::sqrt(2.0 / static_cast<double>(readings_.size() / 2));
+    const double allowed_m =
+        kMeansAgree_sigma * options_.reading_sigma_m * std::sqrt(2.0 / HalfOf(readings_.size()));
     return Moved().cwiseAbs().maxCoeff() <= std::max(allowed_m, kAlwaysAgree_m);
   }
 
@@ -75,7 +81,7 @@ class Rest {
     int leg = 0;
     const double moved_m = Moved().cwiseAbs().maxCoeff(&leg);
     return fmt::format("leg {} does not settle: its reading still moves by {:.2g} mm within {:.2g} s",
-                       leg + 1, 1e3 * moved_m, options_.readings / 2 * options_.period_s);
+                       leg + 1, 1e3 * moved_m, HalfOf(readings_.size()) * options_.period_s);
   }
 
   std::string NoImageText() const {

@@ -69,13 +69,13 @@ TEST_F(CapturingAtFullSize, ProposesPosesForASessionThatCalibratesAndGoesOnTheSa
   EXPECT_EQ(calibration.exit_code, kExitSuccess) << calibration.err;
 }
 
-TEST_F(Capturing, EndsWhenTheExpectedSigmaIsReachedAndSaysWhereItIsNot) {
-  const json reached = CaptureJson({"--until", "0.02"}, kExitSuccess);
-  EXPECT_LE(reached.at("expected_sigma").at("position_m"), 0.02);
-  EXPECT_THAT(reached.at("reason"), HasSubstr("20 mm were asked for"));
+TEST_F(CapturingAtFullSize, EndsWhenTheExpectedSigmaIsReachedAndSaysWhereItIsNot) {
+  const json reached = CaptureJson({"--until", "0.002"}, kExitSuccess);
+  EXPECT_LE(reached.at("expected_sigma").at("position_m"), 0.002);
+  EXPECT_THAT(reached.at("reason"), HasSubstr("2 mm were asked for"));
   const size_t images = reached.at("images");
   EXPECT_LT(images, 10u);
-  const json again = CaptureJson({"--until", "0.02", "--resume"}, kExitSuccess);
+  const json again = CaptureJson({"--until", "0.002", "--resume"}, kExitSuccess);
   EXPECT_EQ(again.at("images"), images);
   EXPECT_TRUE(again.at("taken").empty());
 }

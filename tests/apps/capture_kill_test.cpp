@@ -1,10 +1,12 @@
 // `legible capture` as a process, killed at random moments: no session is broken, no image lost.
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <csignal>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -21,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kKills = 200;
-constexpr int kPoses = 15;
+constexpr int kPoses = 10;
 
 // The program, its output thrown away.
 class Process {
@@ -131,9 +133,13 @@ class CaptureKilled : public RigOnDisk {
 
   void KillRuns(const std::vector<std::string>& what, size_t images, int kills) {
     std::mt19937_64 generator = TestGenerator();
-    const Stopwatch whole;
-    ASSERT_EQ(Process(Command(what, false)).Wait(), kExitSuccess);
-    const double whole_s = whole.Seconds();
+    double whole_s = INFINITY;  // the shorter of two: another process may have been in the way
+    for (int i = 0; i < 2; ++i) {
+      BeginAnew();
+      const Stopwatch whole;
+      ASSERT_EQ(Process(Command(what, false)).Wait(), kExitSuccess);
+      whole_s = std::min(whole_s, whole.Seconds());
+    }
     Check();
     EXPECT_EQ(known_.size(), images);
     BeginAnew();
