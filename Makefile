@@ -15,7 +15,7 @@ export CCACHE_NOHASHDIR := true
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
-demo: packages ## calibrate the shipped session, judge its accuracy, show the reports
+demo: packages ## on a simulated rig: hold a session, calibrate, judge, servo; show the reports
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS) --target legible
 	scripts/demo.sh

@@ -81,28 +81,10 @@ void AddModelOptions(CLI::App& command, CalibrateSettings& settings) {
       ->allow_extra_args(false);
 }
 
-std::vector<std::pair<std::string, std::optional<double>>> ParseAllKnown(
-    const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::optional<double>>> known;
-  try {
-    for (const std::string& text : texts) known.push_back(ParseKnown(text));
-  } catch (const std::invalid_argument& error) {
-    throw CLI::ValidationError("--known", error.what());
-  }
-  return known;
-}
-
 void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--known",
-          [&settings](const std::vector<std::string>& texts) { settings.known = ParseAllKnown(texts); },
-          fmt::format("How well something is known beforehand (1 sigma),\nover what session.yaml says; "
-                      "NAME=none: not at all.\nComma separated or repeated. Names:\n{}",
-                      fmt::join(KnownNames(), "\n")))
-      ->type_name("NAME=SIGMA")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddKnownOption(command, settings.known,
+                 "How well something is known beforehand (1 sigma),\nover what session.yaml says; "
+                 "NAME=none: not at all.");
   command
       .add_option("--tags", settings.tags,
                   "Tag groups of tags.yaml whose corners count as\nobservations, or all; without it they "

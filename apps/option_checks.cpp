@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/calibrate_settings.h"
+
 namespace legible {
 
 CLI::ValidationError NoneOf(const std::string& option, const std::string& value,
@@ -40,6 +42,26 @@ CLI::Option* AddText(CLI::App& command, const std::string& name, const std::stri
     }
   };
   return command.add_option_function<std::string>(name, take_or_refuse, description)->type_name(type);
+}
+
+void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::optional<double>>>& known,
+                    const std::string& description) {
+  const auto take = [&known](const std::vector<std::string>& texts) {
+    try {
+      known.clear();
+      for (const std::string& text : texts) known.push_back(ParseKnown(text));
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError("--known", error.what());
+    }
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--known", take,
+          fmt::format("{}\nComma separated or repeated. Names:\n{}", description,
+                      fmt::join(KnownNames(), "\n")))
+      ->type_name("NAME=SIGMA")
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 void AddThreadsOption(CLI::App& command, int& threads) {

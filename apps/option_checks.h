@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace legible {
@@ -26,6 +28,10 @@ std::function<std::string(const std::string&)> WholeNumberFrom(int least);
 // error. `type` stands in the help.
 CLI::Option* AddText(CLI::App& command, const std::string& name, const std::string& type,
                      const std::function<void(const std::string&)>& take, const std::string& description);
+
+// "--known NAME=SIGMA", comma separated or repeated, which the description need not say; nor the names.
+void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::optional<double>>>& known,
+                    const std::string& description);
 
 // "--threads", one a processor unless given.
 void AddThreadsOption(CLI::App& command, int& threads);

@@ -5,8 +5,10 @@
 
 #include "apps/accuracy_command.h"
 #include "apps/calibrate_command.h"
+#include "apps/capture_command.h"
 #include "apps/replay_command.h"
 #include "apps/servo_command.h"
+#include "apps/simulate_command.h"
 #include "datasets/input_error.h"
 
 namespace legible {
@@ -52,6 +54,10 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   const CLI::App* servo_command = AddServoCommand(app, servo);
   ReplaySettings replay;
   const CLI::App* replay_command = AddReplayCommand(app, replay);
+  CaptureSettings capture;
+  const CLI::App* capture_command = AddCaptureCommand(app, capture);
+  SimulateSettings simulate;
+  const CLI::App* simulate_command = AddSimulateCommand(app, simulate);
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     app.parse(std::move(arguments));
@@ -62,6 +68,8 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   }
   if (calibrate_command->parsed()) return RunCalibrate(calibrate, console);
   if (accuracy_command->parsed()) return RunAccuracy(accuracy, console);
+  if (capture_command->parsed()) return RunCapture(capture, console);
+  if (simulate_command->parsed()) return RunSimulate(simulate, console);
   if (servo_command->parsed()) return RunServoCommand(servo, console);
   return replay_command->parsed() ? RunReplay(replay, console) : kExitBadInput;
 }

@@ -8,6 +8,7 @@
 #include "apps/json_text.h"
 #include "apps/program.h"
 #include "apps/report_pictures.h"
+#include "servo/image_errors.h"
 
 namespace legible {
 namespace {
@@ -32,24 +33,17 @@ json RobotJson(const GoughStewart& robot, double speed_limit_m_per_s) {
   return {{"legs", legs}, {"speed_limit_m_per_s", speed_limit_m_per_s}};
 }
 
-// Rms distance of the goal's ends of one edge from where it is seen, px; null where either is missing.
+// Null where either is missing.
 json EdgeErrorJson(const ServoModel& model, const std::optional<SeenEdge>& seen,
                    const std::optional<SeenEdge>& goal) {
   if (!seen || !goal) return nullptr;
-  double squares = 0;
-  for (const Eigen::Vector2d& end : goal->ends) {
-    const double offset_px =
-        model.focal_px * seen->normal.dot(end.homogeneous()) / seen->normal.head<2>().norm();
-    squares += offset_px * offset_px / 2;
-  }
-  return std::sqrt(squares);
+  return std::sqrt(EdgeError(model, *seen, *goal).squares);
 }
 
-json DirectionErrorJson(const std::array<std::optional<SeenEdge>, 2>& seen,
-                        const std::optional<Eigen::Vector3d>& goal) {
-  if (!seen[0] || !seen[1] || !goal) return nullptr;
-  const Eigen::Vector3d u = DirectionFromEdges(seen[0]->normal, seen[1]->normal);
-  return std::atan2(u.cross(*goal).norm(), u.dot(*goal));
+json DirectionErrorJson(const ServoGoal& goal, size_t leg,
+                        const std::array<std::optional<SeenEdge>, 2>& seen) {
+  if (!seen[0] || !seen[1] || !goal.directions[leg]) return nullptr;
+  return std::sqrt(DirectionError(goal, *seen[0], *seen[1]).squares);
 }
 
 // Columns of numbers, one entry a cycle.
@@ -64,7 +58,7 @@ class CycleColumns {
     for (size_t leg = 0; leg < kLegCount; ++leg) {
       for (size_t edge = 0; edge < 2; ++edge)
         edges.push_back(EdgeErrorJson(setup_.model, seen[leg][edge], setup_.goal.edges[leg][edge]));
-      directions.push_back(DirectionErrorJson(seen[leg], setup_.goal.directions[leg]));
+      directions.push_back(DirectionErrorJson(setup_.goal, leg, seen[leg]));
     }
     columns["edge_errors_px"].push_back(edges);
     columns["direction_errors_rad"].push_back(directions);

@@ -12,26 +12,18 @@
 #include <set>
 #include <stdexcept>
 
+#include "calib/first_look.h"
 #include "calib/held_out.h"
 #include "core/stopwatch.h"
 
 namespace legible {
 namespace {
 
-// How well a drawing and a guessed camera are trusted while the camera's first pose is refined.
-constexpr double kDrawingSigma_m = 2e-3;
-constexpr double kGuessedFocalShare = 0.03;   // of the focal length
-constexpr double kGuessedCentreShare = 0.02;  // of the image width
-constexpr double kGuessedDistortion = 0.2;    // each coefficient
-constexpr double kUnknownLensBend_px = 12;
-constexpr double kSearchAfterScouts_px = 5;
 constexpr double kLargestTagMisfit = 0.2;  // of a tag's side: the guessed lens may be far off
 constexpr double kSearchAtLast_px = 3;
-constexpr double kGrossMisfit = 8;  // drawn joints held 2 mm off leave 11, radii held 0.3 mm off 9
-constexpr double kMisfitOfFew = 2;  // where most edges in sight were not even found near the model
-// How far off the legs may be where tags gave the camera's pose, and where a tape measure did (3 cm, 3 deg).
-constexpr double kTagPoseRange_px = 30;
-constexpr double kTapePoseRange_px = 120;
+constexpr double kGrossMisfit = 8;       // drawn joints held 2 mm off leave 11, radii held 0.3 mm off 9
+constexpr double kMisfitOfFew = 2;       // where most edges in sight were not even found near the model
+constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
 
 // The camera with another lens model: coefficients that the model lacks are 0.
 Camera WithLens(Camera camera, LensModel lens) {
@@ -79,7 +71,7 @@ class SessionCalibrator {
     DemandSeenTags();
     PlaceCamera();
     RefineFirstPose();
-    FindEdges(kSearchAfterScouts_px);
+    FindEdges(kSearchAfterFirstLook_px);
     result_.times.detect_s = lap.Lap();
     Solve();
     result_.times.solve_s = lap.Lap();
@@ -216,29 +208,10 @@ class SessionCalibrator {
       if (CanBeMeasured(i)) seen.push_back(i);
     const size_t scout_count = std::min(seen.size(), static_cast<size_t>(options_.scouts));
     for (size_t i = 0; i < scout_count; ++i) scouts.push_back(seen[i * seen.size() / scout_count]);
-    LegLockOptions lock;
-    lock.range_px = result_.first_pose_from == "camera.yaml" ? kTapePoseRange_px : kTagPoseRange_px;
-    LegEdgeOptions rough_edges = options_.edges;
-    rough_edges.lock = lock;
-    rough_edges.rough_only = true;
-    rough_edges.rough_bend_px = kUnknownLensBend_px;
-    rough_edges.search_px = kUnknownLensBend_px;
-    Measure("looking for the legs", scouts, rough_edges);
-
-    LegCalibrationInput input = Input(scouts);
-    input.known.base_joint_m = kDrawingSigma_m;
-    input.known.platform_joint_m = kDrawingSigma_m;
-    input.known.joint_offset_m = kDrawingSigma_m;
-    input.known.joint_reading_m = kDrawingSigma_m / 10;
-    input.known.distortion =
-        std::min(input.known.distortion.value_or(kGuessedDistortion), kGuessedDistortion);
-    input.known.focal_length_px = kGuessedFocalShare * drawn_camera_.fx_px;
-    input.known.principal_point_px = kGuessedCentreShare * drawn_camera_.width_px;
-    if (!input.known.radius_m) input.known.radius_m = 0.1 * session_.robot.legs[0].radius_m;
-    LegCalibrationOptions rough;
-    rough.threads = options_.threads;
-    rough.hold = options_.estimation.hold;
-    const LegCalibration scouted = CalibrateLegs(input, rough);
+    const double range_px =
+        result_.first_pose_from == "camera.yaml" ? TapePoseRange_px(session_.camera) : kTagPoseRange_px;
+    Measure("looking for the legs", scouts, FirstLookEdges(options_.edges, range_px));
+    const LegCalibration scouted = FirstLook(Input(scouts), options_.estimation.hold, options_.threads);
     if (scouted.status == CalibrationStatus::kConverged)
       Adopt(scouted);
     else

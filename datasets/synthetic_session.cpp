@@ -51,9 +51,9 @@ GoughStewart DrawTruth(const SyntheticOptions& options) {
   return robot;
 }
 
-void DrawGuess(const SyntheticOptions& options, SyntheticSession& session) {
+void DrawGuess(const SyntheticOptions& options, SyntheticRig& rig) {
   Generator generator = MakeGenerator(options.seed, Stream::kGuess);
-  Camera& camera = session.nominal_camera;
+  Camera& camera = rig.nominal_camera;
   camera = options.camera;
   camera.distortion.setZero();
   for (double* value : {&camera.fx_px, &camera.fy_px, &camera.cx_px, &camera.cy_px}) {
@@ -62,7 +62,7 @@ void DrawGuess(const SyntheticOptions& options, SyntheticSession& session) {
   Vector6d displacement;
   displacement.head<3>() = VectorWithin(generator, options.camera_position_error_m);
   displacement.tail<3>() = VectorWithin(generator, options.camera_rotation_error_rad);
-  session.nominal_camera_from_base = Displaced(options.camera_from_base, displacement);
+  rig.nominal_camera_from_base = Displaced(options.camera_from_base, displacement);
 }
 
 Rigid3 DrawPose(const SyntheticOptions& options, Generator& generator) {
@@ -354,14 +354,19 @@ void SyntheticOptions::Check() const {
   CheckSamples(*this);
 }
 
-SyntheticSession GenerateSession(const SyntheticOptions& options) {
+SyntheticRig GenerateRig(const SyntheticOptions& options) {
   options.Check();
-  SyntheticSession session;
-  session.nominal_robot = options.drawing;
-  session.true_robot = DrawTruth(options);
-  session.true_camera = options.camera;
-  session.true_camera_from_base = options.camera_from_base;
-  DrawGuess(options, session);
+  SyntheticRig rig;
+  rig.nominal_robot = options.drawing;
+  rig.true_robot = DrawTruth(options);
+  rig.true_camera = options.camera;
+  rig.true_camera_from_base = options.camera_from_base;
+  DrawGuess(options, rig);
+  return rig;
+}
+
+SyntheticSession GenerateSession(const SyntheticOptions& options) {
+  SyntheticSession session{GenerateRig(options), {}, {}, {}, {}};
   DrawImages(options, session);
   Occlude(options, session.exact_observations);
   Draw draw = DrawNoise(session.exact_observations, options, options.noise_seed);

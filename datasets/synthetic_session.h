@@ -72,16 +72,24 @@ struct SyntheticOptions {
   void Check() const;
 };
 
-struct SyntheticSession {
+// A robot and a camera as they are, and as drawing and tape measure have them.
+struct SyntheticRig {
   GoughStewart true_robot, nominal_robot;
   Camera true_camera, nominal_camera;
   Rigid3 true_camera_from_base, nominal_camera_from_base;
+};
+
+struct SyntheticSession : SyntheticRig {
   std::vector<Rigid3> true_base_from_platform;  // of each image
   std::vector<ImageObservation>
       exact_observations;                      // without noise and outliers; occluded samples are missing
   std::vector<ImageObservation> observations;  // the same samples with both
   std::vector<bool> is_outlier;                // of each sample of `observations`, in their order
 };
+
+// Draws the rig of a session only: the same that GenerateSession draws. Throws std::invalid_argument if the
+// options do not pass Check.
+SyntheticRig GenerateRig(const SyntheticOptions& options);
 
 // Draws a session. The first n images do not depend on how many follow. Throws std::invalid_argument if the
 // options do not pass Check or hardly any pose of theirs keeps its joint ranges and the image.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/geometry/tangents.h"
+#include "servo/image_errors.h"
 #include "servo/interaction.h"
 
 namespace legible {
@@ -45,56 +46,26 @@ struct Situation {
   LegDirections directions;  // for the interaction matrices
 };
 
-double Rms(double squares, int count) { return count > 0 ? std::sqrt(squares / count) : kNan; }
-
-// Distance of the line with that outline normal from an image point (normalised coordinates), px, and its
-// standard deviation.
-struct LineOffset {
-  double offset_px, sigma_px;
-};
-LineOffset OffsetAt(const ServoModel& model, const SeenEdge& seen, const Eigen::Vector2d& point) {
-  const Eigen::Vector3d x = point.homogeneous();
-  const double scale = model.focal_px / seen.normal.head<2>().norm();
-  return {scale * seen.normal.dot(x), scale * std::sqrt(std::max(0.0, x.dot(seen.normal_covariance * x)))};
-}
-
-struct ImageErrors {
-  double edge_px, edge_noise_px, direction_rad, direction_noise_rad;
-};
-ImageErrors MeasureErrors(const Situation& now) {
-  double edge2 = 0, edge_noise2 = 0, direction2 = 0, direction_noise2 = 0;
-  int ends = 0, legs = 0;
-  for (size_t leg = 0; leg < kLegCount; ++leg) {
-    for (size_t edge = 0; edge < 2; ++edge) {
-      const auto &seen = now.seen[leg][edge], &goal = now.goal.edges[leg][edge];
-      if (!seen || !goal) continue;
-      for (const Eigen::Vector2d& end : goal->ends) {
-        const LineOffset offset = OffsetAt(now.model, *seen, end);
-        const double goal_sigma_px = OffsetAt(now.model, *goal, end).sigma_px;
-        edge2 += offset.offset_px * offset.offset_px;
-        edge_noise2 += offset.sigma_px * offset.sigma_px + goal_sigma_px * goal_sigma_px;
-        ++ends;
-      }
-    }
-    const auto& [edge_1, edge_2] = now.seen[leg];
-    if (!edge_1 || !edge_2 || !now.goal.directions[leg]) continue;
-    const Eigen::Vector3d u = DirectionFromEdges(edge_1->normal, edge_2->normal);
-    const double angle =
-        std::atan2(u.cross(*now.goal.directions[leg]).norm(), u.dot(*now.goal.directions[leg]));
-    direction2 += angle * angle;
-    direction_noise2 += DirectionCovariance(*edge_1, *edge_2).trace();
-    const auto& [goal_1, goal_2] = now.goal.edges[leg];
-    if (goal_1 && goal_2) direction_noise2 += DirectionCovariance(*goal_1, *goal_2).trace();
-    ++legs;
-  }
-  return {Rms(edge2, ends), Rms(edge_noise2, ends), Rms(direction2, legs), Rms(direction_noise2, legs)};
-}
-
 EdgesByLeg OfLegs(const SeenEdges& seen, const std::bitset<kLegCount>& legs) {
   EdgesByLeg edges = ByLeg(seen);
   for (size_t leg = 0; leg < kLegCount; ++leg)
     if (!legs[leg]) edges[leg] = {};
   return edges;
+}
+
+// Which of the goal's legs are not seen, or by half.
+void NoteUnseen(const Situation& now, LawResult& result) {
+  for (size_t leg = 0; leg < kLegCount; ++leg) {
+    int wanted = 0, seen = 0;
+    for (size_t edge = 0; edge < 2; ++edge) {
+      // The pose is fitted to whatever is seen.
+      const bool is_wanted = now.options.mode == ControlMode::kPose || now.goal.edges[leg][edge];
+      wanted += is_wanted;
+      seen += is_wanted && now.seen[leg][edge];
+    }
+    result.unseen[leg] = now.options.legs[leg] && seen == 0 && wanted > 0;
+    result.half_seen[leg] = now.options.legs[leg] && seen == 1 && wanted == 2;
+  }
 }
 
 LegDirections DirectionsOf(const ServoModel& model, const Rigid3& base_from_platform) {
@@ -307,6 +278,13 @@ void ControlLawOptions::Check() const {
     throw std::invalid_argument("ControlLawOptions: the least conditioning must be in [0, 1)");
 }
 
+bool LooksAtImages(const ControlLawOptions& options) {
+  const bool by_readings =
+      options.mode == ControlMode::kJoints ||
+      (options.mode == ControlMode::kPose && options.pose_source == PoseSource::kReadings);
+  return !by_readings;
+}
+
 void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
   const auto demand = [](bool is_there, const char* what) {
     if (!is_there) throw std::invalid_argument(what);
@@ -332,9 +310,10 @@ LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawI
                       const ControlLawOptions& options) {
   LawResult result;
   Situation now{model, goal, options, OfLegs(input.seen, options.legs), {}, {}};
-  const ImageErrors errors = MeasureErrors(now);
+  const ImageErrors errors = MeasureImageErrors(model, now.seen, goal);
   result.edge_error_px = errors.edge_px;
   result.direction_error_rad = errors.direction_rad;
+  if (LooksAtImages(options)) NoteUnseen(now, result);
   result.error = kNan;
   if (!JudgeRobot(model, input, options, result)) return result;
   now.length_m = LegLengths(model.robot, input.joint_readings_m);

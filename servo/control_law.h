@@ -50,6 +50,9 @@ struct ControlLawOptions {
   void Check() const;  // throws std::invalid_argument
 };
 
+// Whether the law needs images at all.
+bool LooksAtImages(const ControlLawOptions& options);
+
 enum class LawStatus {
   kOk,
   kBadReadings,          // not numbers
@@ -79,6 +82,8 @@ struct LawResult {
   // Of that, what noise alone leaves, by the covariances of the edges seen and (but for a pose) the goal's.
   double error_noise = 0;
   int legs = 0, edges = 0;  // that take part
+  // Of the legs that are looked at and that the goal has: no edge is seen, or only one that the goal has too.
+  std::bitset<kLegCount> unseen, half_seen;
   int rank = 0;
   Vector6d singular_values = Vector6d::Zero();  // of what is seen (or of the inverse Jacobian), descending
   double robot_conditioning = 0;                // smallest over largest singular value, rotations scaled

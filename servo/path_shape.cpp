@@ -5,7 +5,7 @@
 namespace legible {
 
 PathShape ShapeOfPath(const std::vector<Eigen::Vector3d>& places_m, const Eigen::Vector3d& goal_m) {
-  const Eigen::Vector3d start = places_m.front();
+  const Eigen::Vector3d& start = places_m.front();
   const Eigen::Vector3d along = (goal_m - start).normalized();  // zero where they are the same
   PathShape shape;
   for (size_t i = 0; i < places_m.size(); ++i) {

@@ -29,6 +29,8 @@ class ServoController {
 
   CycleOutput Cycle(const CycleInput& input);
 
+  bool NeedsImages() const { return LooksAtImages(options_.step.law); }
+
   // Ends it from outside, unless it has ended.
   Verdict End(ServoEnd end, const std::string& reason) { return supervisor_.End(end, reason); }
 

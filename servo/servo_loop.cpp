@@ -1,11 +1,15 @@
 #include "servo/servo_loop.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "core/stopwatch.h"
 
 namespace legible {
 namespace {
+
+constexpr const char* kStoppedByUser = "stopped by the user";
 
 // Leaves the rig at rest, however its scope is left.
 class AtRestInTheEnd {
@@ -19,12 +23,39 @@ class AtRestInTheEnd {
   Rig& rig_;
 };
 
+// Nothing where the camera has not given an image yet.
+std::optional<SeenEdges> SeeIfThereIsAnImage(EdgeSource& source, const MotionNow& motion) {
+  try {
+    return source.See(motion);
+  } catch (const NoImageYet&) {
+    return std::nullopt;
+  }
+}
+
+// At rest; the end of the servo if no image comes or the user wants no more.
+Verdict WaitForFirstImage(Rig& rig, EdgeSource& source, ServoController& controller,
+                          const ServoLoopOptions& options) {
+  const double start_s = rig.Now();
+  for (int round = 1; round * options.period_s <= options.first_image_s; ++round) {
+    const StampedReadings readings = rig.ReadJoints();
+    if (SeeIfThereIsAnImage(source, {readings.time_s, readings.joint_readings_m, Vector6d::Zero()}))
+      return {};
+    if (options.is_stopped()) return controller.End(ServoEnd::kStoppedByUser, kStoppedByUser);
+    rig.WaitUntil(start_s + round * options.period_s);
+  }
+  return controller.End(
+      ServoEnd::kStaleImages,
+      fmt::format("no image has come from the camera within {:.2g} s", options.first_image_s));
+}
+
 ServoCycle RunCycle(Rig& rig, EdgeSource& source, ServoController& controller, const Vector6d& commanded) {
   ServoCycle cycle;
   cycle.input.readings = rig.ReadJoints();
   const StampedReadings& readings = cycle.input.readings;
   Stopwatch watch;
-  cycle.input.seen = source.See({readings.time_s, readings.joint_readings_m, commanded});
+  // Without any image it is a law that needs none: the others have waited.
+  const auto seen = SeeIfThereIsAnImage(source, {readings.time_s, readings.joint_readings_m, commanded});
+  cycle.input.seen = seen.value_or(SeenEdges{});
   cycle.look_s = watch.Lap();
   cycle.input.time_s = rig.Now();
   watch.Lap();
@@ -36,7 +67,9 @@ ServoCycle RunCycle(Rig& rig, EdgeSource& source, ServoController& controller, c
 }  // namespace
 
 void ServoLoopOptions::Check() const {
-  if (!(period_s > 0)) throw std::invalid_argument("ServoLoopOptions: period_s must be positive");
+  if (!(period_s > 0) || !(first_image_s >= period_s))
+    throw std::invalid_argument(
+        "ServoLoopOptions: period_s must be positive, first_image_s no less than that");
 }
 
 ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& options,
@@ -49,6 +82,7 @@ ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, con
     run.reason = verdict.reason;
   };
   try {
+    if (controller.NeedsImages()) take(WaitForFirstImage(rig, source, controller, options));
     const double start_s = rig.Now();
     Vector6d commanded = Vector6d::Zero();
     while (run.end == ServoEnd::kRunning) {
@@ -63,7 +97,7 @@ ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, con
       run.time_s = cycle.input.time_s - start_s;
       record(cycle);
       if (run.end == ServoEnd::kRunning && options.is_stopped())
-        take(controller.End(ServoEnd::kStoppedByUser, "stopped by the user"));
+        take(controller.End(ServoEnd::kStoppedByUser, kStoppedByUser));
       if (run.end == ServoEnd::kRunning) rig.WaitUntil(start_s + run.cycles * options.period_s);
     }
   } catch (const RigError& error) {

@@ -13,6 +13,8 @@ namespace legible {
 
 struct ServoLoopOptions {
   double period_s = 0.02;  // from command to command
+  // For which the camera's first image is waited for, at rest.
+  double first_image_s = 1;
   // Asked in each cycle; true: the user wants it stopped.
   std::function<bool()> is_stopped = [] { return false; };
 
@@ -33,7 +35,8 @@ struct ServoRun {
   double time_s = 0;  // of the rig's clock
 };
 
-// Cycle by cycle: readings, edges, command. The rig is at rest when this returns or throws; a rig that does
+// Waits for the first image, if the law needs images, and then, cycle by cycle: readings, edges, command. The
+// rig is at rest when this returns or throws; a rig that does
 // not answer ends the run as any other reason does. `record` is called after each command.
 ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& options,
                   const std::function<void(const ServoCycle&)>& record);

@@ -28,27 +28,44 @@ void SlowNearSingularity(const ServoStepOptions& options, ServoStep& step) {
   step.joint_speeds_m_per_s *= step.singularity_factor;
 }
 
-void KeepRanges(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
-                ServoStep& step) {
+// Nearest to the wanted speeds within the bounds, and which joints these hold.
+void HoldWithin(const SpeedBounds& bounds, const Vector6d& wanted, ServoStep& step) {
   Vector6d& speeds = step.joint_speeds_m_per_s;
-  const SpeedBounds bounds =
-      BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  step.at_shortest = step.at_longest = {};
+  speeds = wanted;
   const bool is_free =
       (speeds.array() >= bounds.lowest.array()).all() && (speeds.array() <= bounds.highest.array()).all();
   if (is_free) return;
-  speeds = NearestWithin(bounds, step.law.metric, speeds);
+  speeds = NearestWithin(bounds, step.law.metric, wanted);
   for (int i = 0; i < kLegCount; ++i) {
     step.at_shortest[static_cast<size_t>(i)] = speeds[i] <= bounds.lowest[i];
     step.at_longest[static_cast<size_t>(i)] = speeds[i] >= bounds.highest[i];
   }
 }
 
-void KeepSpeeds(const JointLimitOptions& limits, ServoStep& step) {
+// One factor for all joints that keeps the fastest at the limit, if none is that small already.
+void Slow(const JointLimitOptions& limits, ServoStep& step) {
   int fastest = 0;
   const double largest = step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(&fastest);
-  if (largest <= limits.speed_limit_m_per_s) return;
+  if (step.speed_factor * largest <= limits.speed_limit_m_per_s) return;
   step.speed_factor = limits.speed_limit_m_per_s / largest;
   step.fastest_leg = fastest;
+}
+
+// What is slowed down for the speed limit comes no farther than its slow speed leads: a range must not turn
+// it aside before. So the bounds count for the speeds as they are when slowed down.
+void KeepLimits(const ServoModel& model, const LawInput& input, const JointLimitOptions& limits,
+                ServoStep& step) {
+  SpeedBounds bounds = BoundsByRange(model.robot, input.joint_readings_m, input.way_since_readings_m, limits);
+  const Vector6d wanted = step.joint_speeds_m_per_s;
+  HoldWithin(bounds, wanted, step);
+  Slow(limits, step);
+  if (step.speed_factor < 1 && (step.at_shortest | step.at_longest).any()) {
+    bounds.lowest /= step.speed_factor;
+    bounds.highest /= step.speed_factor;
+    HoldWithin(bounds, wanted, step);
+    Slow(limits, step);
+  }
   step.joint_speeds_m_per_s *= step.speed_factor;
   // Rounding must not lead beyond the limit.
   step.joint_speeds_m_per_s =
@@ -73,8 +90,7 @@ ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const Law
   step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
   step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
   SlowNearSingularity(options, step);
-  KeepRanges(model, input, options.limits, step);
-  KeepSpeeds(options.limits, step);
+  KeepLimits(model, input, options.limits, step);
   return step;
 }
 
@@ -89,6 +105,21 @@ std::string LegList(const std::bitset<kLegCount>& legs) {
   return text;
 }
 
+namespace {
+
+// "; leg 2 is not seen, of legs 3 and 5 one edge alone", or nothing.
+std::string UnseenText(const LawResult& law) {
+  std::string text;
+  if (law.unseen.any())
+    text = fmt::format("; {} {} not seen", LegList(law.unseen), law.unseen.count() == 1 ? "is" : "are");
+  if (law.half_seen.any())
+    text += fmt::format("{} of {} one edge alone{}", text.empty() ? ";" : ",", LegList(law.half_seen),
+                        text.empty() ? " is seen" : "");
+  return text;
+}
+
+}  // namespace
+
 std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options) {
   const LawResult& law = step.law;
   switch (law.status) {
@@ -102,15 +133,15 @@ std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options)
       return fmt::format("the robot is at a singularity: conditioning {:.2g}, at least {:.2g} is asked for",
                          law.robot_conditioning, options.least_robot_conditioning);
     case LawStatus::kTooFewEdges:
-      return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed",
-                         law.edges, law.legs);
+      return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed{}",
+                         law.edges, law.legs, UnseenText(law));
     case LawStatus::kIllConditionedEdges:
       return fmt::format(
           "the {} edges seen, of {} legs, leave a motion of the platform open: conditioning {:.2g}, at least "
-          "{:.2g} is asked for",
-          law.edges, law.legs, law.Conditioning(), options.least_conditioning);
+          "{:.2g} is asked for{}",
+          law.edges, law.legs, law.Conditioning(), options.least_conditioning, UnseenText(law));
     case LawStatus::kNoPoseFromEdges:
-      return "no pose of the platform near the joint readings fits the edges";
+      return "no pose of the platform near the joint readings fits the edges" + UnseenText(law);
   }
   throw std::invalid_argument("WhyNoSpeeds: not a LawStatus");
 }

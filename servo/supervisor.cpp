@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/geometry/tangents.h"
 
 namespace legible {
 namespace {
 
 constexpr double kTimeSlack_s = 1e-9;   // clocks are sums of periods
+constexpr double kLongestMemory_s = 1;  // older readings and images end it
 constexpr double kFollowedShare = 0.2;  // of a commanded way that a drive makes at least if it follows
 constexpr double kLeastWay_m = 5e-5;    // that says anything about following
+constexpr double kSureWay_m = 2e-4;     // that is more than the noise of readings
 
 bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
   return std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
@@ -20,12 +25,35 @@ bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
                     });
 }
 
-// With noise that shows no image comes twice.
+// With noise that shows no image comes twice. (An image-free simulation without noise states very little.)
 bool HasNoise(const SeenEdges& seen) {
-  constexpr double kLeastNoise_rad = 1e-6;
-  return std::any_of(seen.edges.begin(), seen.edges.end(), [](const SeenEdge& edge) {
+  constexpr double kLeastNoise_rad = 3e-6;
+  const auto has_noise = [](const SeenEdge& edge) {
     return edge.normal_covariance.trace() > kLeastNoise_rad * kLeastNoise_rad;
-  });
+  };
+  return !seen.edges.empty() && std::all_of(seen.edges.begin(), seen.edges.end(), has_noise);
+}
+
+// Whether the edges have moved by more than the noise of both images can do, and by more than a reading's
+// step: by their normalised squares, two an edge, of which noise leaves a mean of 1.
+bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
+  constexpr double kMostMeanSquare = 2.5;
+  constexpr double kNoMotion_rad = 3e-5;
+  const EdgesByLeg edges_before = ByLeg(before);
+  double squares = 0;
+  int count = 0;
+  for (const SeenEdge& edge : now.edges) {
+    const auto& same = edges_before[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
+    if (!same) continue;
+    const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(edge.normal);
+    const Eigen::Matrix2d covariance =
+        kNoMotion_rad * kNoMotion_rad * Eigen::Matrix2d::Identity() +
+        tangents.transpose() * (edge.normal_covariance + same->normal_covariance) * tangents;
+    const Eigen::Vector2d moved = tangents.transpose() * (edge.normal - same->normal);
+    squares += moved.dot(covariance.inverse() * moved);
+    count += 2;
+  }
+  return count > 0 && !(squares <= kMostMeanSquare * count);
 }
 
 Verdict Ended(ServoEnd end, const std::string& reason) { return {end, reason, false, 0}; }
@@ -132,49 +160,73 @@ Supervisor::Supervisor(const ControlLawOptions& law, const SupervisorOptions& op
   if (options_.tolerance == 0) options_.tolerance = DefaultTolerance(law.mode);
 }
 
-bool Supervisor::Looks() const {
-  const bool by_readings = law_.mode == ControlMode::kJoints ||
-                           (law_.mode == ControlMode::kPose && law_.pose_source == PoseSource::kReadings);
-  return !by_readings;
-}
-
 void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s) {
   if (!start_s_) {
     start_s_ = readings_changed_s_ = images_changed_s_ = input.time_s;
+    seen_at_readings_ = input.seen;
+    readings_at_images_m_ = input.readings.joint_readings_m;
+    ways_.push_back({input.time_s, Vector6d::Zero()});
     before_ = input;
     return;
   }
   const Vector6d way_m = (input.time_s - before_->time_s) * commanded_m_per_s;
   commanded_way_m_ += way_m;
   way_since_readings_m_ += way_m;
-  // What nothing new comes after is not unanswered: it is late.
-  unanswered_by_readings_m_ += (input.readings.time_s - before_->readings.time_s) * commanded_m_per_s;
-  unanswered_by_images_m_ += (input.seen.time_s - before_->seen.time_s) * commanded_m_per_s;
+  ways_.push_back({input.time_s, commanded_way_m_});
+  while (ways_.size() > 2 && ways_[1].time_s < input.time_s - kLongestMemory_s) ways_.pop_front();
+  const Vector6d way_at_readings_m = CommandedWayAt(input.readings.time_s);
+  const Vector6d way_at_image_m = CommandedWayAt(input.seen.time_s);
   if (input.readings.joint_readings_m != before_->readings.joint_readings_m) {
     readings_changed_s_ = input.readings.time_s;
-    unanswered_by_readings_m_.setZero();
+    answered_by_readings_m_ = way_at_readings_m;
+    seen_at_readings_ = input.seen;
     // What was commanded after they were taken is still ahead of them.
     way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
-    unanswered_by_images_m_.setZero();
+    answered_by_images_m_ = way_at_image_m;
+    readings_at_images_m_ = input.readings.joint_readings_m;
   }
+  // What was commanded after they were taken is not unanswered.
+  unanswered_by_readings_m_ = way_at_readings_m - answered_by_readings_m_;
+  unanswered_by_images_m_ = way_at_image_m - answered_by_images_m_;
   before_ = input;
+}
+
+Vector6d Supervisor::CommandedWayAt(double time_s) const {
+  if (time_s <= ways_.front().time_s) return ways_.front().way_m;
+  const auto after = std::find_if(ways_.begin(), ways_.end(),
+                                  [time_s](const CommandedWay& way) { return way.time_s >= time_s; });
+  if (after == ways_.end()) return ways_.back().way_m;
+  const CommandedWay& before = *(after - 1);
+  const double share = (time_s - before.time_s) / (after->time_s - before.time_s);
+  return before.way_m + share * (after->way_m - before.way_m);
 }
 
 Verdict Supervisor::Judge(const CycleInput& input, const ServoStep& step) {
   if (last_.end != ServoEnd::kRunning) return last_;
+  ++cycles_;
   std::optional<Verdict> verdict = JudgeInput(input);
   if (!verdict) verdict = JudgeAnswers(input);
   if (!verdict) verdict = JudgeUsability(input, step);
   if (!verdict) verdict = JudgeProgress(input, step);
   if (!verdict && input.time_s - *start_s_ >= options_.timeout_s - kTimeSlack_s)
-    verdict = Ended(ServoEnd::kTimeout, fmt::format("not converged within {:.1f} s: {} left",
-                                                    options_.timeout_s, ErrorText(step.law.error)));
+    verdict = Ended(ServoEnd::kTimeout, WhyTooLate(step));
   if (verdict) last_ = *verdict;
   last_.tolerance = options_.tolerance;
   return last_;
+}
+
+std::string Supervisor::WhyTooLate(const ServoStep& step) const {
+  const std::string error = last_.is_waiting ? "" : ": " + ErrorText(step.law.error) + " left";
+  const std::string waits = waits_ == 0
+                                ? ""
+                                : fmt::format("; it waited in {:.0f} % of its cycles, last because {}",
+                                              100.0 * waits_ / cycles_, why_waited_);
+  const std::string limits = DescribeLimits(step);
+  return fmt::format("not converged within {:.1f} s{}{}{}", options_.timeout_s, error, waits,
+                     limits.empty() ? "" : "; " + limits);
 }
 
 Verdict Supervisor::End(ServoEnd end, const std::string& reason) {
@@ -195,7 +247,7 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
     return Ended(ServoEnd::kStaleReadings,
                  fmt::format("no fresh joint readings: the newest are {:.2f} s old", readings_age_s));
   const double image_age_s = input.time_s - input.seen.time_s;
-  if (Looks() && image_age_s > options_.stale_s + kTimeSlack_s)
+  if (LooksAtImages(law_) && image_age_s > options_.stale_s + kTimeSlack_s)
     return Ended(ServoEnd::kStaleImages,
                  fmt::format("no fresh image: the newest is {:.2f} s old", image_age_s));
   return std::nullopt;
@@ -203,31 +255,39 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
 
 // Whether readings and images answer what is commanded.
 std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
-  const double images_for_s = input.time_s - images_changed_s_;
-  const double readings_for_s = input.time_s - readings_changed_s_;
-  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
+  const bool looks = LooksAtImages(law_);
   const FarthestLeg by_readings = Farthest(unanswered_by_readings_m_);
+  const FarthestLeg by_images = Farthest(unanswered_by_images_m_);
   const bool readings_stand = by_readings.way_m > options_.unanswered_m;
-  const bool images_stand = Looks() && by_images.way_m > options_.unanswered_m;
+  const bool images_stand = looks && by_images.way_m > options_.unanswered_m;
   const auto way_text = [](const FarthestLeg& farthest) {
     return fmt::format("leg {} was commanded by {:.1f} mm", farthest.leg + 1, 1e3 * farthest.way_m);
   };
-  if (readings_stand && images_stand)
+  const bool seem_to_stand = readings_stand && looks && !HaveMoved(seen_at_readings_, input.seen);
+  if (seem_to_stand || (images_stand && !HaveJointsMovedSinceImages()))
     return Ended(ServoEnd::kDrivesDoNotMove,
-                 fmt::format("neither joint readings nor images change though {}: "
-                             "the drives do not move",
-                             way_text(by_readings)));
+                 fmt::format("neither joint readings nor images show any motion though {}: the drives do not "
+                             "move{}",
+                             way_text(readings_stand ? by_readings : by_images),
+                             readings_stand && HasNoise(input.seen)
+                                 ? ", or the joint readings are frozen and the images too noisy to tell"
+                                 : ""));
   if (readings_stand)
     return Ended(ServoEnd::kFrozenReadings,
                  fmt::format("the joint readings have not changed for {:.2f} s though {}: they are frozen{}",
-                             readings_for_s, way_text(by_readings),
-                             Looks() ? ", for the images change" : ", or the drives do not move"));
-  const bool repeats = Looks() && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
+                             input.time_s - readings_changed_s_, way_text(by_readings),
+                             looks ? ", for the images show motion" : ", or the drives do not move"));
+  const double images_for_s = input.time_s - images_changed_s_;
+  const bool repeats = looks && HasNoise(input.seen) && images_for_s > options_.stale_s + kTimeSlack_s;
   if (images_stand || repeats)
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s{}: they are frozen", images_for_s,
                              images_stand ? " though " + way_text(by_images) : ", not even by their noise"));
   return std::nullopt;
+}
+
+bool Supervisor::HaveJointsMovedSinceImages() const {
+  return (before_->readings.joint_readings_m - readings_at_images_m_).cwiseAbs().maxCoeff() > kSureWay_m;
 }
 
 // Whether the law had what it needs. It may lack edges for a moment.
@@ -238,6 +298,8 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
     unusable_since_s_.reset();
     return std::nullopt;
   }
+  ++waits_;
+  why_waited_ = WhyNoSpeeds(step, law_);
   if (!unusable_since_s_) unusable_since_s_ = input.time_s;
   // Nothing is known of the error meanwhile.
   within_since_s_.reset();
@@ -246,7 +308,7 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
   const bool at_once = status == LawStatus::kBadReadings || status == LawStatus::kRobotSingular;
   const double for_s = input.time_s - *unusable_since_s_;
   if (!at_once && for_s < options_.unusable_s - kTimeSlack_s) return std::nullopt;
-  return Ended(EndOf(status), WhyNoSpeeds(step, law_));
+  return Ended(EndOf(status), why_waited_);
 }
 
 std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const ServoStep& step) {
@@ -254,9 +316,10 @@ std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const 
   if (HasArrived(input, step))
     return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
                                                    ErrorText(step.law.error), ErrorText(options_.tolerance)));
-  if (Grows(input, step.law.error))
-    return Ended(ServoEnd::kErrorGrows, fmt::format("the error grows: {} after {} at its smallest",
-                                                    ErrorText(step.law.error), ErrorText(smallest_error_)));
+  if (Grows(input, step))
+    return Ended(ServoEnd::kErrorGrows,
+                 fmt::format("the error grows: {} after {} at its smallest", ErrorText(step.law.error),
+                             ErrorText(smallest_errors_[EdgesBehind(input)])));
   return JudgeStall(input, step);
 }
 
@@ -269,10 +332,22 @@ bool Supervisor::HasArrived(const CycleInput& input, const ServoStep& step) {
   return input.time_s - *within_since_s_ >= options_.dwell_s - kTimeSlack_s;
 }
 
-bool Supervisor::Grows(const CycleInput& input, double error) {
-  smallest_error_ = std::min(smallest_error_, error);
+std::bitset<2 * kLegCount> Supervisor::EdgesBehind(const CycleInput& input) const {
+  std::bitset<2 * kLegCount> edges;
+  if (UnitOf(law_.mode) == UnitOf(ControlMode::kPose)) return edges;
+  for (const SeenEdge& edge : input.seen.edges)
+    if (law_.legs[static_cast<size_t>(edge.leg)]) edges.set(static_cast<size_t>(2 * edge.leg + edge.edge));
+  return edges;
+}
+
+bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
+  const double error = step.law.error;
+  double& smallest = smallest_errors_.try_emplace(EdgesBehind(input), error).first->second;
+  smallest = std::min(smallest, error);
+  constexpr double kNoises = 3;  // what noise leaves is no growth
   const double allowed =
-      options_.growth_factor * smallest_error_ + options_.growth_tolerances * options_.tolerance;
+      std::max(options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance,
+               kNoises * step.law.error_noise);
   if (error <= allowed) {
     growing_since_s_.reset();
     return false;
@@ -283,18 +358,27 @@ bool Supervisor::Grows(const CycleInput& input, double error) {
 
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
-  // While the speed limit alone makes it slow there is nothing to complain of.
-  if (step.speed_factor < 1) recent_.clear();
-  recent_.push_back({input.time_s, step.law.error, input.readings.joint_readings_m, commanded_way_m_});
+  recent_.push_back({input.time_s, EdgesBehind(input), step.law.error,
+                     step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(), step.speed_factor < 1, step.at_shortest,
+                     step.at_longest, input.readings.joint_readings_m, commanded_way_m_});
   if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
   const double middle_s = input.time_s - options_.stall_s / 2;
   double sums[2] = {0, 0}, counts[2] = {0, 0};
   for (const Moment& moment : recent_) {
+    if (moment.edges != recent_.back().edges) continue;
     sums[moment.time_s >= middle_s] += moment.error;
     ++counts[moment.time_s >= middle_s];
   }
+  if (counts[0] == 0) {  // these edges are new: nothing to compare with
+    recent_.pop_front();
+    return std::nullopt;
+  }
   const double mean = sums[1] / counts[1];
   const bool falls = mean < (1 - options_.stall_share) * sums[0] / counts[0];
+  if (!falls && IsOnItsWay()) {
+    recent_.clear();
+    return std::nullopt;
+  }
   if (!falls && mean <= options_.tolerance_in_noise * step.law.error_noise)
     return Ended(ServoEnd::kConverged,
                  fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
@@ -304,17 +388,52 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
   return std::nullopt;
 }
 
+// Whether the speed limit alone makes it slow: mostly at the limit, and not to and fro as noise drives it.
+bool Supervisor::IsOnItsWay() const {
+  constexpr double kShare = 0.5;
+  const auto count = static_cast<double>(recent_.size());
+  double limited = 0, speeds_m_per_s = 0;
+  for (const Moment& moment : recent_) {
+    limited += moment.is_at_speed_limit;
+    speeds_m_per_s += moment.fastest_m_per_s;
+  }
+  const double most_m = speeds_m_per_s / count * (recent_.back().time_s - recent_.front().time_s);
+  const double made_m = Farthest(commanded_way_m_ - recent_.front().commanded_way_m).way_m;
+  return limited > kShare * count && made_m > kShare * most_m;
+}
+
+// The legs that are in the set in most moments of the later half.
+std::bitset<kLegCount> Supervisor::MostlyHeld(std::bitset<kLegCount> Moment::*held) const {
+  const size_t first = recent_.size() / 2;
+  std::array<size_t, kLegCount> counts{};
+  for (size_t i = first; i < recent_.size(); ++i)
+    for (size_t leg = 0; leg < kLegCount; ++leg) counts[leg] += (recent_[i].*held)[leg];
+  std::bitset<kLegCount> mostly;
+  for (size_t leg = 0; leg < kLegCount; ++leg) mostly[leg] = 2 * counts[leg] > recent_.size() - first;
+  return mostly;
+}
+
 Verdict Supervisor::WhyStalled(const ServoStep& step) const {
-  const double now_s = recent_.back().time_s;
-  if (Looks() && now_s - images_changed_s_ > options_.stale_s + kTimeSlack_s)
-    return Ended(ServoEnd::kFrozenImages,
-                 fmt::format("the images have not changed for {:.2f} s: they are frozen, or nothing moves",
-                             now_s - images_changed_s_));
+  const double images_for_s = recent_.back().time_s - images_changed_s_;
+  if (LooksAtImages(law_) && images_for_s > options_.stale_s + kTimeSlack_s && HaveJointsMovedSinceImages())
+    return Ended(
+        ServoEnd::kFrozenImages,
+        fmt::format("the images have not changed for {:.2f} s though the joints moved: they are frozen",
+                    images_for_s));
   const std::string error = fmt::format("the error no longer falls: {} left", ErrorText(step.law.error));
-  const std::bitset<kLegCount> held = step.at_shortest | step.at_longest;
-  if (held.any())
+  if (LooksAtImages(law_) && Farthest(unanswered_by_readings_m_).way_m > kLeastWay_m &&
+      HaveMoved(seen_at_readings_, before_->seen))
+    return Ended(
+        ServoEnd::kFrozenReadings,
+        fmt::format("the joint readings have not changed for {:.2f} s: they are frozen, for the images "
+                    "show motion",
+                    recent_.back().time_s - readings_changed_s_));
+  ServoStep held;
+  held.at_shortest = MostlyHeld(&Moment::at_shortest);
+  held.at_longest = MostlyHeld(&Moment::at_longest);
+  if ((held.at_shortest | held.at_longest).any())
     return Ended(ServoEnd::kStalled,
-                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(step)));
+                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(held)));
   const Vector6d commanded_m = commanded_way_m_ - recent_.front().commanded_way_m;
   const Vector6d moved_m = recent_.back().readings_m - recent_.front().readings_m;
   const FarthestLeg farthest = Farthest(commanded_m);

@@ -1,9 +1,11 @@
 // Decides when a servo has arrived and when it must not go on. What it has decided stays decided.
 #pragma once
 
+#include <bitset>
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "core/rig/rig.h"
 #include "core/vision/seen_edges.h"
@@ -85,18 +87,28 @@ class Supervisor {
 
  private:
   struct Moment {
-    double time_s, error;
+    double time_s;
+    std::bitset<2 * kLegCount> edges;  // behind the error
+    double error, fastest_m_per_s;
+    bool is_at_speed_limit;
+    std::bitset<kLegCount> at_shortest, at_longest;
     Vector6d readings_m, commanded_way_m;
   };
 
-  bool Looks() const;
   std::optional<Verdict> JudgeInput(const CycleInput& input) const;
   std::optional<Verdict> JudgeAnswers(const CycleInput& input) const;
+  bool HaveJointsMovedSinceImages() const;
   std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeProgress(const CycleInput& input, const ServoStep& step);
   bool HasArrived(const CycleInput& input, const ServoStep& step);
-  bool Grows(const CycleInput& input, double error);
+  // Those that an error in the image is the mean over; none where the error is no matter of edges.
+  std::bitset<2 * kLegCount> EdgesBehind(const CycleInput& input) const;
+  std::string WhyTooLate(const ServoStep& step) const;
+  bool Grows(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
+  Vector6d CommandedWayAt(double time_s) const;
+  bool IsOnItsWay() const;
+  std::bitset<kLegCount> MostlyHeld(std::bitset<kLegCount> Moment::*held) const;
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
 
@@ -107,11 +119,23 @@ class Supervisor {
   std::optional<CycleInput> before_;
   double readings_changed_s_ = 0, images_changed_s_ = 0;
   Vector6d way_since_readings_m_ = Vector6d::Zero();
-  // Commanded between the first and the newest of readings and images that are the same.
+  struct CommandedWay {
+    double time_s;
+    Vector6d way_m;
+  };
+  std::deque<CommandedWay> ways_;  // of the last moments, as far back as readings and images may be old
+  // Commanded before the first of readings and images that are the same was taken, and from there to the
+  // newest.
+  Vector6d answered_by_readings_m_ = Vector6d::Zero(), answered_by_images_m_ = Vector6d::Zero();
   Vector6d unanswered_by_readings_m_ = Vector6d::Zero();
   Vector6d unanswered_by_images_m_ = Vector6d::Zero();
+  SeenEdges seen_at_readings_;  // when these last changed, and the readings when the images did
+  Vector6d readings_at_images_m_ = Vector6d::Zero();
   Vector6d commanded_way_m_ = Vector6d::Zero();
-  double smallest_error_ = 1e300;
+  // By the edges behind them: other edges, other errors.
+  std::unordered_map<std::bitset<2 * kLegCount>, double> smallest_errors_;
+  int cycles_ = 0, waits_ = 0;
+  std::string why_waited_;
   std::deque<Moment> recent_;
 };
 

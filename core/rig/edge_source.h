@@ -17,7 +17,7 @@ class EdgeSource {
  public:
   virtual ~EdgeSource() = default;
   // The edges of the newest image there is: the same again, with the same stamp, where no newer one has
-  // come. May throw RigError.
+  // come. May throw RigError, NoImageYet among them.
   virtual SeenEdges See(const MotionNow& motion) = 0;
 };
 

@@ -14,6 +14,12 @@ class RigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The rig answers, but its camera has not given an image yet: it may be asked again.
+class NoImageYet : public RigError {
+ public:
+  NoImageYet() : RigError("the camera has not given an image yet") {}
+};
+
 struct StampedImage {
   double time_s = 0;  // of the exposure, by the rig's clock
   GrayImage image;
@@ -37,7 +43,8 @@ class Rig {
   // Returns at that time of the rig's clock; at once if it is past.
   virtual void WaitUntil(double time_s) = 0;
 
-  // The newest there is: the same one again, with the same stamp, where nothing newer has come.
+  // The newest there is: the same one again, with the same stamp, where nothing newer has come. Grab throws
+  // NoImageYet before the first.
   virtual StampedImage Grab() = 0;
   virtual StampedReadings ReadJoints() = 0;
 

@@ -28,8 +28,7 @@ SimulatedRig::SimulatedRig(SimulationTruth truth, SimulationOptions options, Pic
       base_from_platform_(options_.start.value_or(truth_.robot.home)) {
   for (const Fault& fault : options_.faults) {
     if (fault.kind == FaultKind::kReadingsFrozen) events_.push_back({fault.from_s, fault.kind});
-    if (fault.kind == FaultKind::kLinkLost && fault.IsActiveAt(fault.from_s + kWatchdog_s))
-      events_.push_back({fault.from_s + kWatchdog_s, fault.kind});
+    if (fault.kind == FaultKind::kLinkLost) events_.push_back({fault.from_s + kWatchdog_s, fault.kind});
   }
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
@@ -67,6 +66,7 @@ StampedReadings SimulatedRig::ReadJoints() {
 void SimulatedRig::CommandSpeeds(const Vector6d& joint_speeds_m_per_s) {
   DemandAnswer();
   drives_.Command(joint_speeds_m_per_s);
+  commanded_s_ = now_s_;
 }
 
 void SimulatedRig::Stop() noexcept {
@@ -75,7 +75,7 @@ void SimulatedRig::Stop() noexcept {
 
 const Frame& SimulatedRig::NewestFrame() {
   DemandAnswer();
-  if (!newest_) throw RigError("the camera has not given an image yet");
+  if (!newest_) throw NoImageYet();
   return *newest_;
 }
 
@@ -123,7 +123,10 @@ void SimulatedRig::MoveTo(double time_s) {
 }
 
 void SimulatedRig::Fire(FaultKind kind) {
-  if (kind == FaultKind::kLinkLost) return drives_.Halt();
+  if (kind == FaultKind::kLinkLost) {
+    if (commanded_s_ <= now_s_ - kWatchdog_s) drives_.Halt();
+    return;
+  }
   const bool is_frozen_already =
       std::any_of(options_.faults.begin(), options_.faults.end(), [&](const Fault& fault) {
         return fault.kind == FaultKind::kReadingsFrozen && fault.from_s < now_s_ && fault.IsActiveAt(now_s_);

@@ -38,9 +38,10 @@ struct TrueMotion {
 // images, readings or edges are asked for changes nothing.
 //
 // Faults: see FaultKind. A lost link makes every call but Stop throw RigError (WaitUntil after the time has
-// gone on); the drives miss it and go to rest by themselves kWatchdog_s after it was lost, and Stop does not
-// reach them before it is back. An end stop that is hit holds the joint. If the true robot comes into a
-// singular pose, or one that its legs cannot take, all is over: every call but Stop throws RigError.
+// gone on); the drives miss it and go to rest by themselves kWatchdog_s after it was lost, unless it is back
+// by then and has brought a command. Stop does not reach them before it is back. An end stop that is hit
+// holds the joint. If the true robot comes into a singular pose, or one that its legs cannot take, all is
+// over: every call but Stop throws RigError.
 class SimulatedRig : public Rig {
  public:
   static constexpr double kWatchdog_s = 0.1;
@@ -96,6 +97,7 @@ class SimulatedRig : public Rig {
   Rigid3 base_from_platform_;
   ForwardKinematicsStatus kinematics_status_ = ForwardKinematicsStatus::kConverged;
   double now_s_ = 0;
+  double commanded_s_ = 0;     // the last command's time
   std::vector<Event> events_;  // by time
   size_t next_event_ = 0;
   std::uint64_t next_exposure_ = 0;

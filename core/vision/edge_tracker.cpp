@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,73 +9,14 @@
 namespace legible {
 namespace {
 
-// What moves all edges alike in the image: a camera that is elsewhere than the model has it. Displacement of
-// the image point p: move + turn_and_scale * (p - middle).
-class CommonMotion {
- public:
-  explicit CommonMotion(const Camera& camera) : middle_px_(camera.width_px / 2.0, camera.height_px / 2.0) {}
-
-  void Add(const ImagePointOnEdge& end, double shift_px) {
-    const Eigen::RowVector4d row = RowAt(end);
-    information_ += row.transpose() * row;
-    moment_ += row.transpose() * shift_px;
-  }
-
-  // Outward at that point.
-  double ShiftAt(const ImagePointOnEdge& end) const {
-    return RowAt(end).dot(information_.ldlt().solve(moment_));
-  }
-
- private:
-  Eigen::RowVector4d RowAt(const ImagePointOnEdge& end) const {
-    const Eigen::Vector2d arm = (end.point_px - middle_px_) / middle_px_.norm();
-    return {end.normal_px.x(), end.normal_px.y(), end.normal_px.dot(arm),
-            end.normal_px.dot(Eigen::Vector2d(-arm.y(), arm.x()))};
-  }
-
-  Eigen::Vector2d middle_px_;
-  // Nothing is known without edges: no motion then.
-  Eigen::Matrix4d information_ = 1e-3 * Eigen::Matrix4d::Identity();
-  Eigen::Vector4d moment_ = Eigen::Vector4d::Zero();
-};
-
-using Normals = std::array<Eigen::Vector3d, 2>;
-
-// The model's normals of both edges of a leg; nothing where it has none.
-std::optional<Normals> ModelNormals(const LegInCamera& leg) {
-  const auto axis = LineThrough<double>(leg.a_in_camera, leg.b_in_camera);
-  if (!CameraIsOutside(axis, leg.radius_m)) return std::nullopt;
-  return CylinderOutline(axis, leg.radius_m);
-}
-
-// Where an edge with that normal passes its leg's two joints as the model has them; nothing where it has no
-// image.
-using EdgeEndsInImage = std::array<ImagePointOnEdge, 2>;
-std::optional<EdgeEndsInImage> EndsInImage(const Camera& camera, const LegInCamera& leg,
-                                           const Eigen::Vector3d& model_normal,
-                                           const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d aside = leg.radius_m * model_normal;
-  const auto a = EdgePointNear(camera, normal, leg.a_in_camera + aside);
-  const auto b = EdgePointNear(camera, normal, leg.b_in_camera + aside);
-  if (!a || !b) return std::nullopt;
-  return EdgeEndsInImage{*a, *b};
-}
-
-std::optional<EndShifts> ShiftsBetween(const Camera& camera, const LegInCamera& leg,
-                                       const Eigen::Vector3d& model_normal, const Eigen::Vector3d& normal) {
-  const auto model = EndsInImage(camera, leg, model_normal, model_normal);
-  const auto found = EndsInImage(camera, leg, model_normal, normal);
-  if (!model || !found) return std::nullopt;
-  const auto shift_px = [&](size_t end) {
-    return (*model)[end].normal_px.dot((*found)[end].point_px - (*model)[end].point_px);
-  };
-  return EndShifts{shift_px(0), shift_px(1)};
-}
-
-// The larger of both ends' differences.
-double LargestDifference(const EndShifts& a, const EndShifts& b) {
-  return std::max(std::abs(a.at_a_px - b.at_a_px), std::abs(a.at_b_px - b.at_b_px));
-}
+constexpr int kFirstIterations = 12, kFirstLooks = 3;
+const LegLockOptions kSecondLock = {.range_px = 12, .roll_range_rad = 0.02, .scale_range = 0.02};
+// Of the edges that are in sight, so many must agree with one robot for the first look to count.
+constexpr size_t kLeastFirstEdges = 6;
+constexpr double kLeastFirstShare = 0.75;
+// No legs are known better than this, whatever a few images say.
+constexpr double kLeastLeg_m = 3e-4;
+constexpr double kLegMemory = 0.95;  // of an image, for the next
 
 // An error that is the same along the whole edge: its line shifted outward, as a covariance of the normal.
 Eigen::Matrix3d CovarianceOfShift(const Camera& camera, const Eigen::Vector3d& normal, double sigma_px) {
@@ -84,6 +24,35 @@ Eigen::Matrix3d CovarianceOfShift(const Camera& camera, const Eigen::Vector3d& n
   Eigen::Vector3d change(0, 0, -normal.head<2>().norm() / focal_px);
   change -= normal * normal.dot(change);
   return sigma_px * sigma_px * change * change.transpose();
+}
+
+bool IsMeasured(const LegEdge& edge) { return edge.left_out.empty(); }
+
+SeenEdges MeasuredOf(const Camera& camera, const LegEdges& edges) {
+  SeenEdges seen;
+  for (const LegEdge& edge : edges.edges)
+    if (IsMeasured(edge)) seen.edges.push_back(ToSeenEdge(camera, edge));
+  return seen;
+}
+
+// Leaves out what is farther than gate_m from the view's outlines.
+void DropBeyond(const ModelledView& view, double gate_m, LegEdges& edges) {
+  for (LegEdge& edge : edges.edges) {
+    if (!IsMeasured(edge)) continue;
+    const auto off = OffOf(view, ToSeenEdge(view.camera, edge));
+    if (off && off->Largest_m() <= gate_m) continue;
+    edge.left_out =
+        off ? fmt::format("found {:.1f} mm from where the other edges say that it is", 1e3 * off->Largest_m())
+            : "not in front of the camera";
+  }
+}
+
+size_t CountMeasured(const LegEdges& edges) {
+  return static_cast<size_t>(std::count_if(edges.edges.begin(), edges.edges.end(), IsMeasured));
+}
+size_t CountInSight(const LegEdges& edges) {
+  return static_cast<size_t>(std::count_if(edges.edges.begin(), edges.edges.end(),
+                                           [](const LegEdge& edge) { return edge.in_sight; }));
 }
 
 }  // namespace
@@ -100,8 +69,9 @@ LegEdgeOptions EdgesToTrack() {
 
 void EdgeTrackerOptions::Check() const {
   first_look.Check();
-  if (!(search_px > 0) || !(gate_px > 0) || !(width_gate_px > 0) || !(forget_s > 0))
-    throw std::invalid_argument("EdgeTrackerOptions: lengths and times must be positive");
+  if (!(search_px > 0) || !(gate_px > 0) || !(rough_gate_px > 0) || !(leg_m > 0) || !(leg_gate_sigmas > 0) ||
+      !(forget_s > 0))
+    throw std::invalid_argument("EdgeTrackerOptions: lengths, times and gates must be positive");
 }
 
 EdgeTracker::EdgeTracker(const GoughStewart& robot, const Camera& camera, const Rigid3& camera_from_base,
@@ -115,26 +85,27 @@ TrackedEdges EdgeTracker::Track(const GrayImage& image, double time_s,
   if (image.width != camera_.width_px || image.height != camera_.height_px)
     throw std::invalid_argument(fmt::format("EdgeTracker: an image of {} x {} px for a camera of {} x {} px",
                                             image.width, image.height, camera_.width_px, camera_.height_px));
-  const LegsInCamera legs = PlaceLegs(robot_, camera_from_base_, predicted_base_from_platform);
-  LegEdges edges = Look(image, legs, ExpectedShifts(legs, time_s));
-  const EdgeShifts found = ShiftsOf(legs, edges);
-  DropJumps(found, time_s, edges);
-  DropWrongWidths(found, edges);
-  TrackedEdges tracked;
-  tracked.seen.time_s = time_s;
-  tracked.blur_px = edges.blur_px;
-  for (const LegEdge& edge : edges.edges) {
-    const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
-    tracked.missing[leg][side] = edge.left_out;
-    if (!edge.left_out.empty()) continue;
-    places_[leg][side] = Place{*found[leg][side], time_s};
-    tracked.seen.edges.push_back(ToSeenEdge(camera_, edge));
-  }
-  return tracked;
+  const ModelledView model = ModelAt(predicted_base_from_platform);
+  if (!correction_) return Keep(model, time_s, LookFirst(image, model));
+  const ModelledView expected = Expected(model);
+  LegEdges edges = LookAgain(image, expected, time_s);
+  DropOpposite(edges);
+  DropJumps(expected, time_s, edges);
+  Correct(model, edges);
+  return Keep(model, time_s, edges);
 }
 
-bool EdgeTracker::HasSeenAny() const {
-  return std::any_of(places_.begin(), places_.end(), [](const auto& leg) { return leg[0] || leg[1]; });
+ModelledView EdgeTracker::ModelAt(const Rigid3& base_from_platform) const {
+  return {robot_, camera_, camera_from_base_, base_from_platform};
+}
+
+// As it was corrected last.
+ModelledView EdgeTracker::Expected(const ModelledView& model) const {
+  ModelledView view = model;
+  if (!correction_) return view;
+  view.camera_from_base = Displaced(model.camera_from_base, correction_->camera);
+  view.base_from_platform = Displaced(model.base_from_platform, correction_->platform);
+  return view;
 }
 
 bool EdgeTracker::IsFresh(size_t leg, size_t edge, double time_s) const {
@@ -142,80 +113,112 @@ bool EdgeTracker::IsFresh(size_t leg, size_t edge, double time_s) const {
   return place && time_s - place->time_s <= options_.forget_s;
 }
 
-// Each edge's own last place while that is fresh, else where the fresh ones say that all have moved.
-EdgeShifts EdgeTracker::ExpectedShifts(const LegsInCamera& legs, double time_s) const {
-  CommonMotion common(camera_);
-  EdgeShifts expected;
-  std::array<std::array<std::optional<EdgeEndsInImage>, 2>, kLegCount> ends;
-  for (size_t leg = 0; leg < kLegCount; ++leg) {
-    const auto normals = ModelNormals(legs[leg]);
-    for (size_t edge = 0; normals && edge < 2; ++edge) {
-      ends[leg][edge] = EndsInImage(camera_, legs[leg], (*normals)[edge], (*normals)[edge]);
-      if (!ends[leg][edge] || !IsFresh(leg, edge, time_s)) continue;
-      expected[leg][edge] = places_[leg][edge]->shifts;
-      common.Add((*ends[leg][edge])[0], expected[leg][edge]->at_a_px);
-      common.Add((*ends[leg][edge])[1], expected[leg][edge]->at_b_px);
-    }
+// Locks on to the legs, then looks at the edges where those that agree say that all are.
+LegEdges EdgeTracker::LookFirst(const GrayImage& image, const ModelledView& model) {
+  LegEdgeOptions look = options_.first_look;
+  CorrectionOptions correction{options_.model_errors, std::nullopt, options_.leg_m, kFirstIterations};
+  ModelledView view = model;
+  LegEdges edges = MeasureLegEdges(image, PlaceLegs(model), camera_, look);
+  polarity_ = 0;
+  DropOpposite(edges);
+  const double gate_m = options_.leg_gate_sigmas * options_.leg_m;
+  for (int again = 1; again < kFirstLooks; ++again) {
+    view = CorrectViewByMost(model, MeasuredOf(camera_, edges), correction);
+    // Once more near there: a leg that was taken for another is found now.
+    look.lock = again == 1 ? std::optional(kSecondLock) : std::nullopt;
+    edges = MeasureLegEdges(image, PlaceLegs(view), camera_, look);
+    DropOpposite(edges);
   }
-  for (size_t leg = 0; leg < kLegCount; ++leg)
-    for (size_t edge = 0; edge < 2; ++edge)
-      if (ends[leg][edge] && !expected[leg][edge])
-        expected[leg][edge] =
-            EndShifts{common.ShiftAt((*ends[leg][edge])[0]), common.ShiftAt((*ends[leg][edge])[1])};
-  return expected;
-}
-
-LegEdges EdgeTracker::Look(const GrayImage& image, const LegsInCamera& legs, const EdgeShifts& expected) {
-  LegEdgeOptions options = options_.first_look;
-  if (HasSeenAny()) {
-    options.lock.reset();
-    options.shifts = expected;
-    options.search_px = options_.search_px;
-    options.blur_px = blur_px_;
+  view = CorrectViewByMost(model, MeasuredOf(camera_, edges), correction);
+  DropBeyond(view, gate_m, edges);
+  const size_t agreeing = CountMeasured(edges);
+  if (agreeing < kLeastFirstEdges ||
+      static_cast<double>(agreeing) < kLeastFirstShare * static_cast<double>(CountInSight(edges))) {
+    for (LegEdge& edge : edges.edges)
+      if (IsMeasured(edge)) edge.left_out = "too few edges agree with one place of the robot";
+    return edges;
   }
-  LegEdges edges = MeasureLegEdges(image, legs, camera_, options);
-  if (!blur_px_ && edges.blur_px > 0) blur_px_ = edges.blur_px;  // it does not change from image to image
+  correction_ = Correction{Displacement(model.camera_from_base, view.camera_from_base),
+                           Displacement(model.base_from_platform, view.base_from_platform), options_.leg_m};
+  if (edges.blur_px > 0) blur_px_ = edges.blur_px;  // it does not change from image to image
   return edges;
 }
 
-// Of those that were measured.
-EdgeShifts EdgeTracker::ShiftsOf(const LegsInCamera& legs, LegEdges& edges) const {
-  EdgeShifts shifts;
-  for (LegEdge& edge : edges.edges) {
-    if (!edge.left_out.empty()) continue;
-    const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
-    const auto normals = ModelNormals(legs[leg]);
-    if (normals) shifts[leg][side] = ShiftsBetween(camera_, legs[leg], (*normals)[side], edge.normal);
-    if (!shifts[leg][side]) edge.left_out = "not in front of the camera";
+LegEdges EdgeTracker::LookAgain(const GrayImage& image, const ModelledView& view, double time_s) const {
+  LegEdgeOptions look = options_.first_look;
+  look.lock.reset();
+  look.search_px = options_.search_px;
+  look.blur_px = blur_px_;
+  for (size_t leg = 0; leg < kLegCount; ++leg)
+    for (size_t edge = 0; edge < 2; ++edge)
+      if (IsFresh(leg, edge, time_s)) {
+        const OffModel& off = places_[leg][edge]->off;
+        look.shifts[leg][edge] = EndShifts{off.OffAt_px(0), off.OffAt_px(1)};
+      }
+  return MeasureLegEdges(image, PlaceLegs(view), camera_, look);
+}
+
+// An edge from bright to dark where the others lead from dark to bright: the far side of the leg, a shadow.
+void EdgeTracker::DropOpposite(LegEdges& edges) {
+  if (polarity_ == 0) {
+    double sum = 0;
+    for (const LegEdge& edge : edges.edges)
+      if (IsMeasured(edge)) sum += edge.contrast;
+    polarity_ = sum < 0 ? -1 : 1;
   }
-  return shifts;
+  for (LegEdge& edge : edges.edges)
+    if (IsMeasured(edge) && edge.contrast * polarity_ < 0)
+      edge.left_out = "brightness changes the other way than at the other edges";
 }
 
 // What is farther from where it was than anything moves from one image to the next.
-void EdgeTracker::DropJumps(const EdgeShifts& found, double time_s, LegEdges& edges) const {
+void EdgeTracker::DropJumps(const ModelledView& view, double time_s, LegEdges& edges) const {
   for (LegEdge& edge : edges.edges) {
     const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
-    if (!edge.left_out.empty() || !IsFresh(leg, side, time_s)) continue;
-    const double jump_px = LargestDifference(*found[leg][side], places_[leg][side]->shifts);
-    if (jump_px > options_.gate_px)
+    if (!IsMeasured(edge) || !IsFresh(leg, side, time_s)) continue;
+    const auto off = OffOf(view, ToSeenEdge(camera_, edge));
+    if (!off) continue;
+    double jump_px = 0;
+    for (const OffModel::End& end : off->ends)
+      jump_px = std::max(jump_px, std::abs(end.off_px - places_[leg][side]->off.OffAt_px(end.share)));
+    if (jump_px > (edge.is_rough ? options_.rough_gate_px : options_.gate_px))
       edge.left_out = fmt::format("found {:.1f} px from where it is expected", jump_px);
   }
 }
 
-// A leg is as wide as the model has it, nearly: where its two edges are not, one of them is something else's.
-void EdgeTracker::DropWrongWidths(const EdgeShifts& found, LegEdges& edges) const {
-  for (size_t leg = 0; leg < kLegCount; ++leg) {
-    LegEdge &edge_1 = edges.edges[2 * leg], &edge_2 = edges.edges[2 * leg + 1];
-    if (!edge_1.left_out.empty() || !edge_2.left_out.empty()) continue;
-    const EndShifts &shifts_1 = *found[leg][0], &shifts_2 = *found[leg][1];
-    const double wider_px = std::max(std::abs(shifts_1.at_a_px + shifts_2.at_a_px),
-                                     std::abs(shifts_1.at_b_px + shifts_2.at_b_px));
-    if (wider_px <= options_.width_gate_px) continue;
-    const std::string reason = fmt::format("the leg's edges are {:.1f} px from its width apart", wider_px);
-    // A rough one is the likelier to be wrong.
-    if (edge_1.is_rough || !edge_2.is_rough) edge_1.left_out = reason;
-    if (edge_2.is_rough || !edge_1.is_rough) edge_2.left_out = reason;
+// Leaves out what disagrees with the others.
+void EdgeTracker::Correct(const ModelledView& model, LegEdges& edges) {
+  const ModelledView view = CorrectView(model, Expected(model), MeasuredOf(camera_, edges),
+                                        {options_.model_errors, options_.drift, correction_->leg_m, 2});
+  correction_->camera = Displacement(model.camera_from_base, view.camera_from_base);
+  correction_->platform = Displacement(model.base_from_platform, view.base_from_platform);
+  DropBeyond(view, options_.leg_gate_sigmas * correction_->leg_m, edges);
+}
+
+TrackedEdges EdgeTracker::Keep(const ModelledView& model, double time_s, const LegEdges& edges) {
+  TrackedEdges tracked;
+  tracked.seen.time_s = time_s;
+  tracked.blur_px = edges.blur_px;
+  const ModelledView view = Expected(model);
+  double squares = 0;
+  for (const LegEdge& edge : edges.edges) {
+    const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
+    tracked.missing[leg][side] = edge.left_out;
+    if (!IsMeasured(edge)) continue;
+    const SeenEdge seen = ToSeenEdge(camera_, edge);
+    if (const auto off = OffOf(view, seen)) {
+      places_[leg][side] = Place{*off, time_s};
+      squares += off->ends[0].off_m * off->ends[0].off_m + off->ends[1].off_m * off->ends[1].off_m;
+    }
+    tracked.is_rough[leg][side] = edge.is_rough;
+    tracked.seen.edges.push_back(seen);
   }
+  if (tracked.seen.edges.size() >= kLeastFirstEdges) {
+    const double leg_m = std::sqrt(squares / (2 * static_cast<double>(tracked.seen.edges.size())));
+    correction_->leg_m =
+        std::clamp(kLegMemory * correction_->leg_m + (1 - kLegMemory) * leg_m, kLeastLeg_m, options_.leg_m);
+  }
+  return tracked;
 }
 
 SeenEdge ToSeenEdge(const Camera& camera, const LegEdge& edge) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/vision/leg_edges.h"
+#include "core/vision/model_correction.h"
 #include "core/vision/seen_edges.h"
 
 namespace legible {
@@ -17,12 +18,18 @@ struct EdgeTrackerOptions {
   // Of the first look; `lock` says how far off the model may be then.
   LegEdgeOptions first_look = EdgesToTrack();
   double search_px = 5;  // how far from where it is expected an edge is looked for later on
-  // How far from there it may be found at most, at either end of its leg, while it is followed. Farther off
-  // it is something else's.
+  // How far from there it may be found at most, at either end of what is seen of it, while it is followed.
+  // Farther off it is something else's.
   double gate_px = 2.5;
-  double width_gate_px = 4;  // how much wider or narrower than the model's a leg may be found, at either end
-  // An edge that has not been seen for so long is looked for where the others have moved, as far as
-  // search_px.
+  double rough_gate_px = 1;  // the same of an edge whose place is a rough one
+  // How wrong the model may be, and how fast that changes from image to image.
+  ViewErrors model_errors;
+  ViewErrors drift{1e-3, 1e-3, 5e-4, 2.5e-3};
+  double leg_m = 1.2e-3;  // of the legs, 1 sigma: what neither camera nor platform explains
+  // How far an edge may lie from where the others say that it is, in sigmas: of leg_m, or of what is usual
+  // in the images so far, where that is less.
+  double leg_gate_sigmas = 4;
+  // An edge that has not been seen for so long is looked for where the others say that it is.
   double forget_s = 0.5;
 
   void Check() const;  // throws std::invalid_argument
@@ -33,12 +40,13 @@ struct TrackedEdges {
   SeenEdges seen;
   // Why each edge that is missing is: [leg][edge]; empty for those seen.
   std::array<std::array<std::string, 2>, kLegCount> missing;
+  std::array<std::array<bool, 2>, kLegCount> is_rough = {};  // of those seen: LegEdge::is_rough
   double blur_px = 0;
 };
 
-// Edges are expected where the model has them in the predicted pose, moved by as much as they lay beside it
-// when they were seen last: the model may be wrong by whatever changes slowly, a drawing and a guessed camera
-// too.
+// The model may be wrong by whatever changes slowly, a drawing and a guessed camera too: camera and platform
+// are displaced such that the model's edges agree with those seen (CorrectView), and each edge is then
+// expected as far beside them as it was seen last. What disagrees with the others is no edge of the robot.
 class EdgeTracker {
  public:
   // Throws std::invalid_argument where the options are wrong.
@@ -49,26 +57,36 @@ class EdgeTracker {
   TrackedEdges Track(const GrayImage& image, double time_s, const Rigid3& predicted_base_from_platform);
 
  private:
-  // Where an edge was seen last, beside the model's.
+  // Where an edge was seen last, beside the corrected model's.
   struct Place {
-    EndShifts shifts;
+    OffModel off;
     double time_s = 0;
   };
+  using Places = std::array<std::array<std::optional<Place>, 2>, kLegCount>;
 
-  bool HasSeenAny() const;
+  ModelledView ModelAt(const Rigid3& base_from_platform) const;
+  ModelledView Expected(const ModelledView& model) const;
   bool IsFresh(size_t leg, size_t edge, double time_s) const;
-  EdgeShifts ExpectedShifts(const LegsInCamera& legs, double time_s) const;
-  LegEdges Look(const GrayImage& image, const LegsInCamera& legs, const EdgeShifts& expected);
-  EdgeShifts ShiftsOf(const LegsInCamera& legs, LegEdges& edges) const;
-  void DropJumps(const EdgeShifts& found, double time_s, LegEdges& edges) const;
-  void DropWrongWidths(const EdgeShifts& found, LegEdges& edges) const;
+  LegEdges LookFirst(const GrayImage& image, const ModelledView& model);
+  LegEdges LookAgain(const GrayImage& image, const ModelledView& view, double time_s) const;
+  void DropJumps(const ModelledView& view, double time_s, LegEdges& edges) const;
+  void DropOpposite(LegEdges& edges);
+  void Correct(const ModelledView& model, LegEdges& edges);
+  TrackedEdges Keep(const ModelledView& model, double time_s, const LegEdges& edges);
 
   GoughStewart robot_;
   Camera camera_;
   Rigid3 camera_from_base_;
   EdgeTrackerOptions options_;
+  // What was found of the model's errors; none before the first look.
+  struct Correction {
+    Vector6d camera, platform;  // displacements of camera_from_base, in camera, and of base_from_platform
+    double leg_m = 0;           // root mean square of how far edges are off all the same
+  };
+  std::optional<Correction> correction_;
   std::optional<double> blur_px_;
-  std::array<std::array<std::optional<Place>, 2>, kLegCount> places_;
+  double polarity_ = 0;  // 1: legs are brighter than what is behind them, -1: darker, 0: not known yet
+  Places places_;
 };
 
 // An edge as measured in an image, for a control law: its covariance holds what all its samples share too.

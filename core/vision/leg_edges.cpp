@@ -59,6 +59,7 @@ struct Work {
   ProfileFitOptions fit_options;
   std::optional<ProfileFit> fit;
   std::vector<EdgeSample> rough;
+  double rough_contrast = 0;
 
   bool Dropped() const { return !result->left_out.empty(); }
 };
@@ -253,7 +254,9 @@ class Measurement {
       work.result->observation = {work.result->leg, work.result->edge, trace->samples, 0};
     else
       ShiftEnds(camera_, *work.leg, trace->at_a_px, trace->at_b_px, work.predicted);
-    if (trace && options_.keeps_rough) work.rough = trace->samples;
+    if (!trace || !options_.keeps_rough) return;
+    work.rough = trace->samples;
+    work.rough_contrast = trace->contrast;
   }
 
   void CheckLength(Work& work) const {
@@ -385,6 +388,7 @@ class Measurement {
     if (line.samples.size() < kFewestSamples) return;
     edge.left_out.clear();
     edge.is_rough = true;
+    edge.contrast = work.rough_contrast;
     edge.normal = line.normal;
     edge.normal_covariance = line.normal_covariance;
     edge.observation = {edge.leg, edge.edge, line.samples, kRoughSigma_px};

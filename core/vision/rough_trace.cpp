@@ -132,11 +132,13 @@ std::optional<RoughTrace> TraceRoughly(const GrayImage& image, const PredictedEd
   if (curve.count < kFewestPlaces || curve.count < kLeastShare * static_cast<double>(places.size()))
     return std::nullopt;
   const RoughCurve settled = Settled(curve, places);
-  RoughTrace trace{settled.At(0), settled.At(1), {}};
-  for (const RoughPlace& place : places)
-    if (curve.Agrees(place))
-      trace.samples.push_back(
-          {place.centre_px + place.outward_px * place.normal_px, place.normal_px, kTolerance_px / 2});
+  RoughTrace trace{settled.At(0), settled.At(1), {}, 0};
+  for (const RoughPlace& place : places) {
+    if (!curve.Agrees(place)) continue;
+    trace.samples.push_back(
+        {place.centre_px + place.outward_px * place.normal_px, place.normal_px, kTolerance_px / 2});
+    trace.contrast += place.step / curve.count;
+  }
   return trace;
 }
 

@@ -20,6 +20,7 @@ struct RoughTraceOptions {
 struct RoughTrace {
   double at_a_px = 0, at_b_px = 0;  // of the edge outward from the prediction, at the leg's two ends
   std::vector<EdgeSample> samples;  // the stretches that lie on the curve
+  double contrast = 0;              // mean of their steps, grey levels: inside minus outside
 };
 
 // Nothing where no straight edge is near the prediction.

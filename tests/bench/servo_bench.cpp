@@ -5,8 +5,10 @@
 #include <random>
 #include <vector>
 
+#include "core/rig/scene_camera.h"
 #include "core/rig/simulated_edges.h"
 #include "core/rig/simulated_rig.h"
+#include "core/vision/edge_tracker.h"
 #include "core/vision/leg_edges.h"
 #include "servo/servo_controller.h"
 #include "servo/servo_loop.h"
@@ -14,7 +16,6 @@
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/visp_servo.h"
 #include "tests/testing/hexapod_view.h"
-#include "tests/testing/render_legs.h"
 
 namespace legible {
 namespace {
@@ -127,7 +128,6 @@ BenchTable FeaturesToCommand() {
 // ---- From image to command: a robot that moves slowly, about half a pixel from frame to frame.
 
 constexpr int kFrames = 60, kPasses = 5;
-constexpr double kNoise_grey = 2;
 
 struct Film {
   ServoModel model;
@@ -140,20 +140,19 @@ struct Film {
   }
 };
 
-// 1280 x 960, of every edge enough in sight.
+// 1280 x 960, of every edge enough in sight; by the simulated rig's camera.
 Film MakeFilm() {
-  std::mt19937_64 generator(1);
   const GoughStewart robot = DesktopHexapod();
   const Camera camera = DesktopCamera(false);
   const Rigid3 camera_from_base = LookAt({0.94, 0.074, 0.285}, {0, 0, 0.13});
   Film film{MakeServoModel(robot, camera, camera_from_base), {}, {}, {}};
+  const SceneCamera scene({robot, camera, camera_from_base}, {}, 1);
   Vector6d per_frame;
   per_frame << 2e-4, 3e-4, 2e-4, 3e-4, -5e-4, 5e-4;
   film.goal = GoalAtPose(film.model, Displaced(robot.home, 2 * kFrames * per_frame));
   for (int frame = 0; frame < kFrames; ++frame) {
     film.poses.push_back(Displaced(robot.home, frame * per_frame));
-    const LegsInCamera legs = film.LegsAt(static_cast<size_t>(frame));
-    film.images.push_back(WithNoise(RenderLegs(legs, camera, RenderOptions()), kNoise_grey, generator));
+    film.images.push_back(scene.Take(film.poses.back(), {}, static_cast<std::uint64_t>(frame)));
   }
   return film;
 }
@@ -186,44 +185,53 @@ struct ImageScore {
   }
 };
 
-// The edges of an image, where the legs are known to have been a frame ago.
-using Look = std::function<SeenEdges(const GrayImage& image, const LegsInCamera& before)>;
+// The edges of a frame, where it is known what the frame before was like; `readings_m` are the frame's.
+using Look = std::function<SeenEdges(const Film& film, size_t frame, const Vector6d& readings_m)>;
 
-SeenEdge ToSeen(const Camera& camera, const LegEdge& measured) {
-  SeenEdge seen{measured.leg, measured.edge, measured.normal, measured.normal_covariance, {}};
-  const std::vector<EdgeSample>& samples = measured.observation.samples;
-  seen.ends = {Unproject(camera, samples.front().point_px).value(),
-               Unproject(camera, samples.back().point_px).value()};
-  return seen;
+// As a servo has them: expected by the readings, corrected, checked against each other. Knows the first
+// frame.
+Look LookByTracker(const Film& film) {
+  const ServoModel& model = film.model;
+  auto tracker =
+      std::make_shared<EdgeTracker>(model.robot, model.camera, model.camera_from_base, EdgeTrackerOptions());
+  tracker->Track(film.images[0], 0, film.poses[0]);
+  return [tracker](const Film& of, size_t frame, const Vector6d& readings_m) {
+    const auto forward = ForwardKinematics(of.model.robot, readings_m, of.poses[frame - 1]);
+    return tracker->Track(of.images[frame], 0.02 * static_cast<double>(frame), forward.base_from_platform)
+        .seen;
+  };
 }
 
 // Each image by itself, but for the prediction and the blur.
-Look LookByMeasuring(const Camera& camera) {
+Look LookByMeasuring(const Film& /*film*/) {
   LegEdgeOptions options;
   options.lock.reset();
-  options.blur_px = RenderOptions().blur_px;
-  return [camera, options](const GrayImage& image, const LegsInCamera& before) {
+  options.blur_px = SceneOptions().blur_px;
+  return [options](const Film& of, size_t frame, const Vector6d& /*readings_m*/) {
+    const LegsInCamera before = of.LegsAt(frame == 0 ? 0 : frame - 1);
     SeenEdges seen;
-    for (const LegEdge& edge : MeasureLegEdges(image, before, camera, options).edges)
-      if (edge.left_out.empty()) seen.edges.push_back(ToSeen(camera, edge));
+    for (const LegEdge& edge : MeasureLegEdges(of.images[frame], before, of.model.camera, options).edges)
+      if (edge.left_out.empty()) seen.edges.push_back(ToSeenEdge(of.model.camera, edge));
     return seen;
   };
 }
 
-BenchTable::Row OwnImageRow(const std::string& label, const Film& film, const Look& look) {
+BenchTable::Row OwnImageRow(const std::string& label, const Film& film,
+                            const std::function<Look(const Film&)>& begin) {
   ImageScore score;
   ServoStepOptions options;
-  for (int pass = 0; pass < kPasses; ++pass)
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Look look = begin(film);
     for (size_t frame = 1; frame < film.images.size(); ++frame) {
-      const LegsInCamera before = film.LegsAt(frame - 1);
       const Vector6d readings_m = InverseKinematics(film.model.robot, film.poses[frame]);
       const double before_s = CpuTime_s();
-      const SeenEdges seen = look(film.images[frame], before);
+      const SeenEdges seen = look(film, frame, readings_m);
       EvaluateStep(film.model, film.goal, {seen, readings_m, Vector6d::Zero(), film.poses[frame - 1]},
                    options);
       score.times_s.push_back(CpuTime_s() - before_s);
       score.Add(film, frame, seen);
     }
+  }
   return score.Row(label);
 }
 
@@ -237,9 +245,9 @@ SeenEdges KnownEdges(const Film& film, size_t frame, const SeenEdges& in_sight) 
 }
 
 // vpMeLine, begun where the first image shows the edges.
-BenchTable::Row VispImageRow(const std::string& label, const Film& film, const Look& look) {
+BenchTable::Row VispImageRow(const std::string& label, const Film& film) {
   ImageScore score;
-  const SeenEdges in_sight = look(film.images[0], film.LegsAt(0));
+  const SeenEdges in_sight = LookByMeasuring(film)(film, 0, Vector6d::Zero());
   int lost = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     VispEdges edges(film.model);
@@ -266,10 +274,10 @@ BenchTable::Row VispImageRow(const std::string& label, const Film& film, const L
 
 BenchTable ImageToCommand() {
   const Film film = MakeFilm();
-  const Look look = LookByMeasuring(film.model.camera);
   return {"from image to command, 1280 x 960, one core, processor time (bar: 5 ms at p99)",
-          {OwnImageRow("MeasureLegEdges, edge law", film, look),
-           VispImageRow("ViSP vpMeLine, vpServo", film, look)}};
+          {OwnImageRow("EdgeTracker, edge law", film, LookByTracker),
+           OwnImageRow("MeasureLegEdges, edge law", film, LookByMeasuring),
+           VispImageRow("ViSP vpMeLine, vpServo", film)}};
 }
 
 }  // namespace

@@ -445,8 +445,10 @@ TEST(ControlLaw, NeedsThreeLegs) {
     EXPECT_EQ(result.legs, 2);
     EXPECT_EQ(result.edges, 4);
     const ServoStep step = EvaluateStep(task.scene.model, task.goal, task.Input(two_legs), Unlimited(law, 1));
-    EXPECT_EQ(WhyNoSpeeds(step, law),
-              "too few edges are seen: 4 of 2 legs, where six edges of three legs are needed");
+    EXPECT_EQ(
+        WhyNoSpeeds(step, law),
+        "too few edges are seen: 4 of 2 legs, where six edges of three legs are needed; legs 1, 3, 4 and "
+        "6 are not seen");
     EXPECT_EQ(StatusOf(task, task.Input({}), law).status, LawStatus::kTooFewEdges);
   }
 }

@@ -224,6 +224,27 @@ TEST(ServoStep, SlowsAllJointsByOneFactorSoThatTheFastestKeepsItsLimit) {
   }
 }
 
+// The end of a range is farther than the speed limit leads.
+TEST(ServoStep, IsNotTurnedAsideByARangeThatItsSpeedLimitKeeps) {
+  std::mt19937_64 generator = TestGenerator();
+  const ServoScene scene = RandomScene(generator);
+  const Vector6d readings_m = InverseKinematics(scene.model.robot, scene.pose);
+  Vector6d way_m;
+  way_m << 0.5, 0.02, -0.03, 0.01, 0.04, -0.02;
+  ServoStepOptions options = JointStep();
+  options.gain = AdaptiveGain::Constant(1);
+  ASSERT_GT(way_m[0], 0.02 / options.limits.look_ahead_s);
+  const std::array<double, 2> range_m = {readings_m.minCoeff() - 0.1, readings_m.maxCoeff() + 0.02};
+  const ServoStep step = StepBy(scene, way_m, options, range_m);
+  EXPECT_TRUE(AreNear(step.joint_speeds_m_per_s, 0.05 / 0.5 * way_m, 1e-12));
+  EXPECT_FALSE(step.at_longest.any());
+  // At the end it is held.
+  const std::array<double, 2> near_m = {readings_m.minCoeff() - 0.1, readings_m[0] + 5e-4};
+  const ServoStep held = StepBy(scene, way_m, options, near_m);
+  EXPECT_EQ(held.joint_speeds_m_per_s[0], 0);
+  EXPECT_TRUE(held.at_longest[0]);
+}
+
 TEST(ServoStep, HoldsAJointAtTheEndOfItsRangeAndSaysWhich) {
   std::mt19937_64 generator = TestGenerator();
   const ServoScene scene = RandomScene(generator);

@@ -152,7 +152,7 @@ TEST(ServoController, EndsOnReadingsThatAreFrozen) {
   const History run = RunOf(trial);
   EXPECT_EQ(run.Last().end, ServoEnd::kFrozenReadings);
   EXPECT_THAT(run.Last().reason, HasSubstr("the joint readings have not changed"));
-  EXPECT_THAT(run.Last().reason, HasSubstr("frozen, for the images change"));
+  EXPECT_THAT(run.Last().reason, HasSubstr("frozen, for the images show motion"));
   trial.options.step.law.mode = ControlMode::kJoints;  // looks at no image
   const History blind = RunOf(trial);
   EXPECT_EQ(blind.Last().end, ServoEnd::kFrozenReadings);
@@ -202,6 +202,97 @@ TEST(ServoController, EndsOnDrivesThatDoNotMove) {
   const History run = RunOf(trial);
   EXPECT_EQ(run.Last().end, ServoEnd::kDrivesDoNotMove);
   EXPECT_THAT(run.Last().reason, HasSubstr("the drives do not move"));
+}
+
+TEST(ServoController, SaysThatDrivesDoNotMoveThoughNoiseMovesTheEdges) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  trial.drive = [](const Vector6d&, double) -> Vector6d { return Vector6d::Zero(); };
+  trial.disturb = [&generator](CycleInput& input, double) {
+    GiveCovariances(input.seen, 1e-4, generator);
+    input.seen = Moved(input.seen, generator);
+  };
+  const History run = RunOf(trial);
+  EXPECT_EQ(run.Last().end, ServoEnd::kDrivesDoNotMove) << run.Last().reason;
+  EXPECT_THAT(run.Last().reason, HasSubstr("the drives do not move, or the joint readings are frozen"));
+}
+
+TEST(ServoController, DoesNotTakeARobotThatWaitsForFrozenImages) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  trial.disturb = [](CycleInput& input, double) {
+    input.seen = Only(input.seen, [](int leg, int) { return leg > 3; });
+    // What a simulation without noise states of edges, a short one among them.
+    for (SeenEdge& edge : input.seen.edges)
+      edge.normal_covariance = (edge.edge == 0 ? 1e-11 : 1e-13) * Eigen::Matrix3d::Identity();
+  };
+  const History run = RunOf(trial);
+  EXPECT_EQ(run.Last().end, ServoEnd::kTooFewEdges) << run.Last().reason;
+  EXPECT_THAT(run.Last().reason, HasSubstr("legs 1, 2, 3 and 4 are not seen"));
+}
+
+TEST(ServoController, NamesLegsThatShowOneEdgeAlone) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  trial.disturb = [](CycleInput& input, double) {
+    input.seen = Only(input.seen, [](int leg, int edge) { return leg < 3 && (leg != 1 || edge == 0); });
+  };
+  EXPECT_THAT(RunOf(trial).Last().reason,
+              HasSubstr("; legs 4, 5 and 6 are not seen, of leg 2 one edge alone"));
+}
+
+// A leg with an error of its own comes into sight.
+TEST(ServoController, ComparesErrorsOfTheSameEdgesAlone) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  const double appears_s = 1.6;
+  trial.disturb = [appears_s](CycleInput& input, double time_s) {
+    if (time_s < appears_s) input.seen = Only(input.seen, [](int leg, int) { return leg != 2; });
+    input.seen.time_s = time_s;
+  };
+  trial.goal.edges[2] = GoalAtPose(trial.scene.model, Nearby(trial.scene.pose, 0.03, generator)).edges[2];
+  trial.options.supervision.tolerance = 1e-9;
+  const History run = RunOf(trial);
+  EXPECT_EQ(run.Last().end, ServoEnd::kStalled) << run.Last().reason;
+  EXPECT_GT(run.Time_s(), appears_s + 1.5);
+}
+
+// Noise drives it at its speed limit to and fro.
+TEST(ServoController, EndsInNoiseThatKeepsItAtItsSpeedLimit) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  trial.options.step.limits.speed_limit_m_per_s = 2e-3;
+  trial.goal = GoalAtPose(trial.scene.model, trial.scene.pose);
+  trial.disturb = [&generator](CycleInput& input, double) {
+    GiveCovariances(input.seen, 2e-3, generator);
+    input.seen = Moved(input.seen, generator);
+  };
+  const History run = RunOf(trial);
+  EXPECT_NE(run.Last().end, ServoEnd::kTimeout) << run.Last().reason;
+  EXPECT_LT(run.Time_s(), 20);
+}
+
+TEST(ServoController, IsPatientWhereTheSpeedLimitAloneMakesItSlow) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator, ControlMode::kJoints);
+  trial.options.step.limits.speed_limit_m_per_s = 4e-4;
+  trial.goal.joint_readings_m =
+      InverseKinematics(trial.scene.model.robot, trial.scene.pose) + Vector6d::Constant(0.02);
+  EXPECT_EQ(RunOf(trial).Last().end, ServoEnd::kConverged);
+}
+
+TEST(ServoController, SaysAtItsTimeoutWhyItWaited) {
+  std::mt19937_64 generator = TestGenerator();
+  Trial trial = RandomTrial(generator);
+  trial.options.supervision.timeout_s = 2;
+  trial.disturb = [](CycleInput& input, double time_s) {
+    if (std::fmod(time_s, 0.4) > 0.05) input.seen = Only(input.seen, [](int leg, int) { return leg > 3; });
+    input.seen.time_s = time_s;
+  };
+  trial.options.step.gain = AdaptiveGain::Constant(0.2);
+  const History run = RunOf(trial);
+  EXPECT_EQ(run.Last().end, ServoEnd::kTimeout) << run.Last().reason;
+  EXPECT_THAT(run.Last().reason, HasSubstr("% of its cycles, last because too few edges are seen"));
 }
 
 TEST(ServoController, WaitsWhileTooLittleIsSeenAndEndsIfThatLasts) {

@@ -139,8 +139,7 @@ TEST(RunServo, EndsOnEachFaultWithAReasonThatNamesIt) {
     FaultCase at_once = one;
     at_once.fault.from_s = 0;
     if (one.fault.kind == FaultKind::kFramesDropped) {  // no image ever
-      at_once.end = ServoEnd::kLinkLost;
-      at_once.words = "has not given an image";
+      at_once.words = "no image has come from the camera within 1 s";
     }
     if (one.fault.kind == FaultKind::kFramesLate) continue;  // below
     ExpectEnd({}, at_once);
@@ -148,7 +147,61 @@ TEST(RunServo, EndsOnEachFaultWithAReasonThatNamesIt) {
 }
 
 TEST(RunServo, NamesLateFramesFromTheFirstOneOn) {
-  ExpectEnd({}, {{FaultKind::kFramesLate, 0}, ServoEnd::kLinkLost, "has not given an image"});
+  ExpectEnd({}, {{FaultKind::kFramesLate, 0}, ServoEnd::kStaleImages, "the newest is 0.20 s old"});
+}
+
+TEST(RunServo, WaitsForTheFirstImage) {
+  Trial trial;
+  trial.simulation.faults.push_back({FaultKind::kFramesDropped, 0, 0.31});
+  const Outcome outcome = RunOf(trial);
+  EXPECT_EQ(outcome.run.end, ServoEnd::kConverged) << outcome.run.reason;
+  trial.simulation.faults[0].until_s = 1e9;
+  trial.loop.is_stopped = [] { return true; };
+  EXPECT_EQ(RunOf(trial).run.end, ServoEnd::kStoppedByUser);
+}
+
+TEST(RunServo, NeedsNoCameraForALawThatDoesNotLook) {
+  for (const ControlMode mode : {ControlMode::kPose, ControlMode::kJoints}) {
+    Trial trial;
+    trial.options.step.law.mode = mode;
+    trial.simulation.faults.push_back({FaultKind::kFramesDropped, 0});
+    const Outcome outcome = RunOf(trial);
+    EXPECT_EQ(outcome.run.end, ServoEnd::kConverged) << outcome.run.reason;
+  }
+}
+
+TEST(RunServo, LeavesTheRigAtRestThoughTheLinkIsSoonBack) {
+  Trial trial;
+  trial.simulation.faults.push_back({FaultKind::kLinkLost, 0.3, 0.33});
+  const Outcome outcome = RunOf(trial);
+  EXPECT_EQ(outcome.run.end, ServoEnd::kLinkLost);
+  EXPECT_LT(outcome.end.joint_speeds_m_per_s.norm(), 1e-12);
+}
+
+// The joints go on by their lag after the readings have frozen, as fast as a range lets them.
+TEST(RunServo, KeepsTheRangesThoughReadingsAreFrozenAndDrivesLag) {
+  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kJoints}) {
+    for (int n = 0; n < 40; ++n) {
+      Trial trial;
+      trial.options.step.law.mode = mode;
+      trial.options.step.gain = AdaptiveGain::Constant(8);
+      trial.options.step.limits.speed_limit_m_per_s = 0.1;
+      trial.simulation.drives.lag_s = 0.04;
+      trial.robot.legs[1].joint_range_m[1] = InverseKinematics(trial.robot, trial.robot.home)[1] + 0.012;
+      trial.simulation.faults.push_back({FaultKind::kReadingsFrozen, 0.02 * n});
+      RunOf(trial);  // looks at the ranges
+    }
+  }
+}
+
+TEST(RunServo, TakesLateImagesOfARobotAtRestForWhatTheyAre) {
+  Trial trial;
+  trial.simulation.edge_noise_px = 0;
+  trial.options.step.gain = AdaptiveGain::Constant(3);
+  trial.options.step.limits.speed_limit_m_per_s = 0.1;
+  trial.simulation.faults.push_back({FaultKind::kFramesLate, 0, 1e9, 0, 0.09});
+  const Outcome outcome = RunOf(trial);
+  EXPECT_EQ(outcome.run.end, ServoEnd::kConverged) << outcome.run.reason;
 }
 
 TEST(RunServo, RidesOutFaultsThatAreShort) {

@@ -136,7 +136,7 @@ TEST(SimulatedRig, DroppedFramesLeaveTheLastOneBefore) {
       Stamps({FaultKind::kFramesDropped, 0.1, 0.2}, {0.08, 0.1, 0.18, 0.2, 0.22});
   EXPECT_THAT(stamps, testing::Pointwise(testing::DoubleEq(), {0.08, 0.08, 0.08, 0.2, 0.22}));
   SimulatedRig rig(DesktopTruth(), WithFault({FaultKind::kFramesDropped, 0, 0.2}));
-  EXPECT_THROW(rig.NewestFrame(), RigError);
+  EXPECT_THROW(rig.NewestFrame(), NoImageYet);
 }
 
 TEST(SimulatedRig, LateFramesComeLateWithTheirOwnStamps) {
@@ -217,11 +217,17 @@ TEST(SimulatedRig, WithoutItsLinkNothingAnswersAndTheDrivesComeToRest) {
   EXPECT_NO_THROW(rig.ReadJoints());
 }
 
-TEST(SimulatedRig, ALinkThatIsBackBeforeTheWatchdogBarksStopsNothing) {
-  SimulatedRig rig(DesktopTruth(), WithFault({FaultKind::kLinkLost, 0.1, 0.19}));
-  rig.CommandSpeeds(Rising(0.04));
-  rig.WaitUntil(0.5);
-  EXPECT_NEAR(rig.true_motion().joint_speeds_m_per_s[0], 0.04, 1e-5);
+TEST(SimulatedRig, ALinkThatIsBackBeforeTheWatchdogBarksStopsNothingIfItBringsACommand) {
+  for (const bool is_commanded : {false, true}) {
+    SimulatedRig rig(DesktopTruth(), WithFault({FaultKind::kLinkLost, 0.1, 0.15}));
+    rig.CommandSpeeds(Rising(0.04));
+    EXPECT_THROW(rig.WaitUntil(0.12), RigError);
+    rig.Stop();  // does not arrive
+    rig.WaitUntil(0.16);
+    if (is_commanded) rig.CommandSpeeds(Rising(0.04));
+    rig.WaitUntil(0.8);
+    EXPECT_NEAR(rig.true_motion().joint_speeds_m_per_s[0], is_commanded ? 0.04 : 0, 1e-5);
+  }
 }
 
 TEST(SimulatedRig, StopBringsTheJointsToRest) {
