@@ -113,6 +113,7 @@ LabServo ServoOf(const Plan& plan, const Rigs& rigs, size_t at) {
 
 std::vector<LabRow> RunPlans(const std::vector<Plan>& plans, const Rigs& rigs) {
   std::vector<LabRow> rows;
+  rows.reserve(plans.size());
   for (const Plan& plan : plans) rows.push_back({plan.label, std::vector<LabOutcome>(kRuns)});
   tbb::parallel_for(0, kRuns, [&](int i) {
     const auto at = static_cast<size_t>(i);
