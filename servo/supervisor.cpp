@@ -434,8 +434,10 @@ Verdict Supervisor::WhyStalled(const ServoStep& step) const {
   held.at_shortest = MostlyHeld(&Moment::at_shortest);
   held.at_longest = MostlyHeld(&Moment::at_longest);
   if ((held.at_shortest | held.at_longest).any())
-    return Ended(ServoEnd::kStalled,
-                 fmt::format("{}, {}: the goal is out of the joint ranges", error, DescribeLimits(held)));
+    return Ended(
+        ServoEnd::kStalled,
+        fmt::format("{}, {}: the goal is out of the joint ranges{}", error, DescribeLimits(held),
+                    step.law.error_noise > options_.tolerance ? ", or noise drives the joints there" : ""));
   const Vector6d commanded_m = commanded_way_m_ - recent_.front().commanded_way_m;
   const Vector6d moved_m = recent_.back().readings_m - recent_.front().readings_m;
   const FarthestLeg farthest = Farthest(commanded_m);

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 
@@ -68,16 +67,6 @@ Outcome RunOf(const ServoTrial& trial) {
   ServoController controller(trial.model, trial.goal, trial.options);
   const double limit = trial.options.step.limits.speed_limit_m_per_s;
   const auto watch = [&](const ServoCycle& cycle) {
-    if (std::getenv("TRACE"))
-      fmt::print(
-          "{:.2f} {} e {:.3g} noise {:.3g} cond {:.3g} legs {} edges {} speed {:.4f} factor {:.2f} wait {} "
-          "off {:.2f} mm {}\n",
-          cycle.input.time_s, (int)cycle.output.step.law.status, cycle.output.step.law.error,
-          cycle.output.step.law.error_noise, cycle.output.step.law.Conditioning(), cycle.output.step.law.legs,
-          cycle.output.step.law.edges, cycle.output.step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
-          cycle.output.step.speed_factor, cycle.output.verdict.is_waiting,
-          1e3 * Displacement(rig.true_motion().base_from_platform, trial.goal_pose).head<3>().norm(),
-          DescribeLimits(cycle.output.step));
     outcome.was_too_fast |= cycle.output.joint_speeds_m_per_s.cwiseAbs().maxCoeff() > limit;
     outcome.was_out_of_range |= IsOutOfRange(trial.truth.robot, rig.true_motion().joint_readings_m);
   };
@@ -101,7 +90,6 @@ struct Naming {
   std::string words;
 };
 std::vector<Naming> NamingsOf(const Fault& fault) {
-  const std::string unseen = fmt::format("{} not seen", fault.leg + 1);
   switch (fault.kind) {
     case FaultKind::kFramesDropped:
       return {{ServoEnd::kStaleImages, "no fresh image"}, {ServoEnd::kStaleImages, "no image has come"}};
@@ -186,8 +174,9 @@ bool IsHonest(const Outcome& outcome) {
       return true;
     case ServoEnd::kStalled:
       if (Contains(reason, "out of the joint ranges"))
-        return ClosestToAnEnd_m(trial.truth.robot, outcome.at_rest.joint_readings_m) <
-               limits.range_margin_m + limits.look_ahead_s * limits.speed_limit_m_per_s;
+        return (has_noise && Contains(reason, "or noise drives")) ||
+               ClosestToAnEnd_m(trial.truth.robot, outcome.at_rest.joint_readings_m) <
+                   limits.range_margin_m + limits.look_ahead_s * limits.speed_limit_m_per_s;
       if (Contains(reason, "does not follow")) return trial.HasFriction();
       return is_wrong || has_noise || trial.HasFriction();
     case ServoEnd::kFrozenReadings:
@@ -244,9 +233,9 @@ std::string Complaint(const Outcome& outcome) {
   return IsHonest(outcome) ? "" : "the reason is not so";
 }
 
-std::vector<Outcome> RunAll(std::uint64_t seed, int runs) {
-  std::vector<Outcome> outcomes(static_cast<size_t>(runs));
-  tbb::parallel_for(0, runs, [&](int i) { outcomes[static_cast<size_t>(i)] = RunOf(DrawTrial(seed, i)); });
+std::vector<Outcome> RunAll(std::uint64_t seed) {
+  std::vector<Outcome> outcomes(kRuns);
+  tbb::parallel_for(0, kRuns, [&](int i) { outcomes[static_cast<size_t>(i)] = RunOf(DrawTrial(seed, i)); });
   return outcomes;
 }
 
@@ -314,26 +303,24 @@ void PrintWhatIsLeft(const std::vector<Outcome>& outcomes) {
 
 TEST(SafetyStatistics, NoRunCrossesALimitAndEachEndsWithItsReason) {
   const std::uint64_t seed = TestGenerator()();
-  const char* wanted = std::getenv("RUNS");
-  const int runs = wanted ? std::atoi(wanted) : kRuns;
   const Stopwatch watch;
-  if (std::getenv("TRACE")) {
-    RunOf(DrawTrial(seed, std::atoi(std::getenv("TRACE"))));
-    return;
-  }
-  const std::vector<Outcome> outcomes = RunAll(seed, runs);
-  std::cout << fmt::format("{} runs in {:.0f} s\n", runs, watch.Seconds());
+  const std::vector<Outcome> outcomes = RunAll(seed);
+  std::cout << fmt::format("{} runs in {:.0f} s\n", kRuns, watch.Seconds());
   PrintTables(outcomes);
   PrintWhatIsLeft(outcomes);
+  int unhindered = 0, converged = 0;
   for (size_t i = 0; i < outcomes.size(); ++i) {
-    const std::string complaint = Complaint(outcomes[i]);
-    const bool fails = IsUnhindered(outcomes[i].trial) && outcomes[i].run.end != ServoEnd::kConverged;
-    if (complaint.empty() && !fails) continue;
-    std::cout << fmt::format("run {}: {}: {} ({}) at {:.2f} s\n    {}\n", i,
-                             complaint.empty() ? "NOT CONVERGED" : complaint, ToString(outcomes[i].run.end),
-                             outcomes[i].run.reason, outcomes[i].run.time_s, outcomes[i].trial.Describe());
-    if (!complaint.empty()) ADD_FAILURE();
+    const Outcome& outcome = outcomes[i];
+    const std::string text = fmt::format("run {}: {} ({}) at {:.2f} s\n    {}", i, ToString(outcome.run.end),
+                                         outcome.run.reason, outcome.run.time_s, outcome.trial.Describe());
+    EXPECT_EQ(Complaint(outcome), "") << text;
+    if (!IsUnhindered(outcome.trial)) continue;
+    ++unhindered;
+    converged += outcome.run.end == ServoEnd::kConverged;
+    if (outcome.run.end != ServoEnd::kConverged) std::cout << text << std::endl;
   }
+  // What is left are views in which legs hide each other, and strong noise on few edges.
+  EXPECT_GE(converged, 0.97 * unhindered);
 }
 
 }  // namespace
