@@ -18,8 +18,8 @@ struct RobotFinderOptions {
     size_t least_edges;           // that must agree with one pose
     double least_share;           // the same, of those in sight
   };
-  Knowledge calibrated{1e-3, 1e-3, 4e-4, 30, 10, 0.85};
-  Knowledge drawing{0.03, 0.05, 1.2e-3, 60, 10, 0.85};
+  Knowledge calibrated{1e-3, 1e-3, 1.5e-4, 30, 10, 0.85};
+  Knowledge drawing{0.03, 0.05, 1.2e-3, 60, 12, 0.9};
   bool tries_drawing = true;
   int candidates = 20000;  // poses, spread over the joint ranges
   int climbs = 60;         // of the best of them, improved by the image's gradients

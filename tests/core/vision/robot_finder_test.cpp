@@ -81,7 +81,7 @@ TEST(RobotFinder, FindsNoRobotWhereThereIsNone) {
   std::reverse(upside_down.pixels.begin(), upside_down.pixels.end());
   for (std::uint8_t& pixel : noise.pixels) pixel = static_cast<std::uint8_t>(generator() % 256);
   noise = Blurred(noise, 2);
-  for (const GrayImage* image : {&noise, &covered, &upside_down})
+  for (const GrayImage* image : std::initializer_list<const GrayImage*>{&noise, &covered, &upside_down})
     for (const BelievedRobot& believed : {robot.Perfect(), robot.drawing}) {
       const FoundRobot found =
           FindRobot(*image, believed.robot, believed.camera, believed.camera_from_base, {});
