@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -203,14 +204,18 @@ std::vector<RecordedCycle> ReadCycles(const std::filesystem::path& file) {
   return cycles;
 }
 
+bool IsCount(double number, double lowest, double highest) {
+  return number >= lowest && number <= highest && number == std::floor(number);
+}
+
 void ReadEdges(const std::filesystem::path& file, std::vector<RecordedCycle>& cycles) {
   const std::string text = ReadTextFile(file);
   const std::vector<CsvRow> rows = SplitCsv(text);
   if (rows.empty()) return;  // no edge was seen
   for (const CsvRow& row : ArrangeCsv(file, rows, {Columns(EdgeRow(0, {}).header()), {}})) {
     const double number = NumberOf(file, row, 0), leg = NumberOf(file, row, 1), edge = NumberOf(file, row, 2);
-    const bool is_known = number >= 0 && number < static_cast<double>(cycles.size()) && leg >= 1 &&
-                          leg <= kLegCount && edge >= 1 && edge <= 2;
+    const bool is_known = IsCount(number, 0, static_cast<double>(cycles.size()) - 1) &&
+                          IsCount(leg, 1, kLegCount) && IsCount(edge, 1, 2);
     if (!is_known) throw InputError(file, row.line, "names a cycle, leg or edge that is not there", kMend);
     SeenEdge seen;
     seen.leg = static_cast<int>(leg) - 1;

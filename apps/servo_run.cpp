@@ -10,6 +10,7 @@
 #include "core/rig/tracked_edges.h"
 #include "core/robots/mechanism.h"
 #include "core/stopwatch.h"
+#include "core/vision/robot_finder.h"
 #include "datasets/atomic_file.h"
 #include "datasets/camera_file.h"
 #include "datasets/input_error.h"
@@ -76,10 +77,17 @@ ServoGoal GoalFromImage(const ServoSettings& settings, const ServoModel& model) 
                      fmt::format("is {} x {} px, and the model's camera {} x {}", image->width, image->height,
                                  model.camera.width_px, model.camera.height_px),
                      "give an image of this camera");
-  const Rigid3 guess = settings.goal.joints_m ? PoseAtReadings(settings, model.robot, *settings.goal.joints_m)
-                                              : model.robot.home;
-  EdgeTracker tracker(model.robot, model.camera, model.camera_from_base, TrackerOptions());
-  return GoalFromEdges(model, tracker.Track(*image, 0, guess).seen, guess);
+  if (settings.goal.joints_m) {  // then it is known where to look
+    const Rigid3 guess = PoseAtReadings(settings, model.robot, *settings.goal.joints_m);
+    EdgeTracker tracker(model.robot, model.camera, model.camera_from_base, TrackerOptions());
+    const SeenEdges seen = tracker.Track(*image, 0, guess).seen;
+    if (!seen.edges.empty()) return GoalFromEdges(model, seen, guess);
+  }
+  const FoundRobot found = FindRobot(*image, model.robot, model.camera, model.camera_from_base, {});
+  if (found.status != RobotFinderStatus::kFound)
+    throw InputError(file, 0, found.reason,
+                     "give an image of the whole robot, and the model of this robot and camera");
+  return GoalFromEdges(model, found.seen, found.base_from_platform);
 }
 
 ServoGoal GoalOf(const ServoSettings& settings, const ServoModel& model) {

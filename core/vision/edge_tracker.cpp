@@ -11,9 +11,7 @@ namespace {
 
 constexpr int kFirstIterations = 12, kFirstLooks = 3;
 const LegLockOptions kSecondLock = {.range_px = 12, .roll_range_rad = 0.02, .scale_range = 0.02};
-// Of the edges that are in sight, so many must agree with one robot for the first look to count.
-constexpr size_t kLeastFirstEdges = 6;
-constexpr double kLeastFirstShare = 0.75;
+constexpr size_t kFewestEdges = 6;  // from which the legs' own errors are judged
 // No legs are known better than this, whatever a few images say.
 constexpr double kLeastLeg_m = 3e-4;
 constexpr double kLegMemory = 0.95;  // of an image, for the next
@@ -87,7 +85,7 @@ TrackedEdges EdgeTracker::Track(const GrayImage& image, double time_s,
                                             image.width, image.height, camera_.width_px, camera_.height_px));
   const ModelledView model = ModelAt(predicted_base_from_platform);
   if (!correction_) return Keep(model, time_s, LookFirst(image, model));
-  const ModelledView expected = Expected(model);
+  const ModelledView expected = Corrected(model.base_from_platform);
   LegEdges edges = LookAgain(image, expected, time_s);
   DropOpposite(edges);
   DropJumps(expected, time_s, edges);
@@ -99,12 +97,11 @@ ModelledView EdgeTracker::ModelAt(const Rigid3& base_from_platform) const {
   return {robot_, camera_, camera_from_base_, base_from_platform};
 }
 
-// As it was corrected last.
-ModelledView EdgeTracker::Expected(const ModelledView& model) const {
-  ModelledView view = model;
+ModelledView EdgeTracker::Corrected(const Rigid3& base_from_platform) const {
+  ModelledView view = ModelAt(base_from_platform);
   if (!correction_) return view;
-  view.camera_from_base = Displaced(model.camera_from_base, correction_->camera);
-  view.base_from_platform = Displaced(model.base_from_platform, correction_->platform);
+  view.camera_from_base = Displaced(view.camera_from_base, correction_->camera);
+  view.base_from_platform = Displaced(view.base_from_platform, correction_->platform);
   return view;
 }
 
@@ -132,8 +129,8 @@ LegEdges EdgeTracker::LookFirst(const GrayImage& image, const ModelledView& mode
   view = CorrectViewByMost(model, MeasuredOf(camera_, edges), correction);
   DropBeyond(view, gate_m, edges);
   const size_t agreeing = CountMeasured(edges);
-  if (agreeing < kLeastFirstEdges ||
-      static_cast<double>(agreeing) < kLeastFirstShare * static_cast<double>(CountInSight(edges))) {
+  if (agreeing < options_.least_first_edges ||
+      static_cast<double>(agreeing) < options_.least_first_share * static_cast<double>(CountInSight(edges))) {
     for (LegEdge& edge : edges.edges)
       if (IsMeasured(edge)) edge.left_out = "too few edges agree with one place of the robot";
     return edges;
@@ -188,7 +185,7 @@ void EdgeTracker::DropJumps(const ModelledView& view, double time_s, LegEdges& e
 
 // Leaves out what disagrees with the others.
 void EdgeTracker::Correct(const ModelledView& model, LegEdges& edges) {
-  const ModelledView view = CorrectView(model, Expected(model), MeasuredOf(camera_, edges),
+  const ModelledView view = CorrectView(model, Corrected(model.base_from_platform), MeasuredOf(camera_, edges),
                                         {options_.model_errors, options_.drift, correction_->leg_m, 2});
   correction_->camera = Displacement(model.camera_from_base, view.camera_from_base);
   correction_->platform = Displacement(model.base_from_platform, view.base_from_platform);
@@ -199,7 +196,7 @@ TrackedEdges EdgeTracker::Keep(const ModelledView& model, double time_s, const L
   TrackedEdges tracked;
   tracked.seen.time_s = time_s;
   tracked.blur_px = edges.blur_px;
-  const ModelledView view = Expected(model);
+  const ModelledView view = Corrected(model.base_from_platform);
   double squares = 0;
   for (const LegEdge& edge : edges.edges) {
     const auto leg = static_cast<size_t>(edge.leg), side = static_cast<size_t>(edge.edge);
@@ -213,7 +210,7 @@ TrackedEdges EdgeTracker::Keep(const ModelledView& model, double time_s, const L
     tracked.is_rough[leg][side] = edge.is_rough;
     tracked.seen.edges.push_back(seen);
   }
-  if (tracked.seen.edges.size() >= kLeastFirstEdges) {
+  if (tracked.seen.edges.size() >= kFewestEdges) {
     const double leg_m = std::sqrt(squares / (2 * static_cast<double>(tracked.seen.edges.size())));
     correction_->leg_m =
         std::clamp(kLegMemory * correction_->leg_m + (1 - kLegMemory) * leg_m, kLeastLeg_m, options_.leg_m);

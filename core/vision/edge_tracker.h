@@ -29,6 +29,10 @@ struct EdgeTrackerOptions {
   // How far an edge may lie from where the others say that it is, in sigmas: of leg_m, or of what is usual
   // in the images so far, where that is less.
   double leg_gate_sigmas = 4;
+  // Of the edges that are in sight, so many must agree with one place of the robot for the first look to
+  // count.
+  size_t least_first_edges = 6;
+  double least_first_share = 0.75;
   // An edge that has not been seen for so long is looked for where the others say that it is.
   double forget_s = 0.5;
 
@@ -56,6 +60,9 @@ class EdgeTracker {
   // Throws std::invalid_argument for an image of another size than the camera's.
   TrackedEdges Track(const GrayImage& image, double time_s, const Rigid3& predicted_base_from_platform);
 
+  // The model with its platform there, as far as the edges so far have corrected it.
+  ModelledView Corrected(const Rigid3& base_from_platform) const;
+
  private:
   // Where an edge was seen last, beside the corrected model's.
   struct Place {
@@ -65,7 +72,6 @@ class EdgeTracker {
   using Places = std::array<std::array<std::optional<Place>, 2>, kLegCount>;
 
   ModelledView ModelAt(const Rigid3& base_from_platform) const;
-  ModelledView Expected(const ModelledView& model) const;
   bool IsFresh(size_t leg, size_t edge, double time_s) const;
   LegEdges LookFirst(const GrayImage& image, const ModelledView& model);
   LegEdges LookAgain(const GrayImage& image, const ModelledView& view, double time_s) const;
