@@ -45,7 +45,7 @@ TEST(EdgeTracker, FollowsThemByADrawingAndAGuessedCamera) {
   const FollowingScore score = FollowRobots(6, 30, 0.1, false, generator);
   score.Print("drawing and guessed camera");
   EXPECT_GE(score.seen, 0.95 * score.in_sight);
-  EXPECT_LT(score.FineRms_px(), 0.15);  // of which half is the bend that the guessed lens lacks
+  EXPECT_LT(score.FineRms_px(), 0.15);  // the guessed camera has no distortion
   EXPECT_LT(score.wrong, 0.002 * score.seen);
 }
 
