@@ -45,27 +45,29 @@ class Staging {
 };
 
 template <typename Action>
-void OrInputError(const fs::path& folder, Action action) {
+void OrInputError(const fs::path& folder, const std::string& option, Action action) {
   try {
     action();
   } catch (const fs::filesystem_error& error) {
-    throw InputError(folder, 0, "cannot be written: " + error.code().message(), "name another folder");
+    throw InputError(folder, 0, "cannot be written: " + error.code().message(),
+                     "name another folder with " + option);
   }
 }
 
 }  // namespace
 
-void DemandWritable(const fs::path& folder, const std::vector<std::string>& names) {
-  OrInputError(folder, [&] { const Staging trial(folder); });
+void DemandWritable(const fs::path& folder, const std::vector<std::string>& names,
+                    const std::string& option) {
+  OrInputError(folder, option, [&] { const Staging trial(folder); });
   for (const std::string& name : names)
     if (fs::is_directory(folder / name))
       throw InputError(folder / name, 0, "is a folder where a file is to be written",
-                       "remove it, or name another folder");
+                       "remove it, or name another folder with " + option);
 }
 
 void WriteTogether(const fs::path& folder, const std::vector<std::string>& names,
                    const std::function<void(const fs::path&)>& write) {
-  OrInputError(folder, [&] {
+  OrInputError(folder, "enough room", [&] {
     RemoveAbandonedStaging(folder);
     const Staging staging(folder);
     write(staging.path());

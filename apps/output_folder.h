@@ -9,8 +9,9 @@
 namespace legible {
 
 // Throws InputError, and leaves everything as it was, unless the folder can be written, or made where it is
-// missing, and files of these names can come into it.
-void DemandWritable(const std::filesystem::path& folder, const std::vector<std::string>& names);
+// missing, and files of these names can come into it. The option is the one that names the folder.
+void DemandWritable(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                    const std::string& option = "--out");
 
 // Calls `write` with an empty folder beside the results; then moves what it wrote there into `folder`,
 // replacing what was there, folders too. Those of `names` that `write` did not write are removed: they would

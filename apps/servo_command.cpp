@@ -89,7 +89,7 @@ Servoed ServoAndWrite(PreparedServo& prepared, ProgressLine& progress) {
 }  // namespace
 
 int RunServoCommand(const ServoSettings& settings, const Console& console) {
-  DemandWritable(settings.log, kLogFiles);
+  DemandWritable(settings.log, kLogFiles, "--log");
   DemandNothingElseThere(settings.log);
   PreparedServo prepared = PrepareServo(settings);
   ProgressLine progress(console);

@@ -152,7 +152,8 @@ std::string EdgesText(const ServoLog& log) {
                   "# unit, away from the leg; c: its covariance; begin, end: the stretch seen, normalised "
                   "image coordinates\n"
                   "# without distortion. Legs and edges count from 1.\n",
-                  kServoLogSchema), EdgeRow(0, {}));
+                  kServoLogSchema),
+      EdgeRow(0, {}));
   for (size_t i = 0; i < log.cycles.size(); ++i)
     for (const SeenEdge& edge : log.cycles[i].cycle.input.seen.edges) table.Add(EdgeRow(i, edge));
   return table.text();
@@ -230,21 +231,23 @@ void ReadEdges(const std::filesystem::path& file, std::vector<RecordedCycle>& cy
 
 // What `read` makes of the document in a file; whatever it finds wrong is bad input.
 template <typename F>
-auto ReadDocument(const std::filesystem::path& file, const F& read) {
+auto ReadDocument(const std::filesystem::path& file, const std::string& what, const F& read) {
   const std::string text = ReadTextFile(file);
   try {
     return read(nlohmann::ordered_json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file, 0, fmt::format("is no document of a servo: {}", error.what()), kMend);
+    throw InputError(file, 0, fmt::format("is no {} of a servo: {}", what, error.what()), kMend);
   } catch (const std::invalid_argument& error) {
-    throw InputError(file, 0, fmt::format("is no document of a servo: {}", error.what()), kMend);
+    throw InputError(file, 0, fmt::format("is no {} of a servo: {}", what, error.what()), kMend);
   }
 }
 
-ServoSetup ReadSetup(const std::filesystem::path& file) { return ReadDocument(file, SetupFromJson); }
+ServoSetup ReadSetup(const std::filesystem::path& file) {
+  return ReadDocument(file, "set-up", SetupFromJson);
+}
 
 void ReadResult(const std::filesystem::path& file, RecordedServo& recorded) {
-  const int cycles = ReadDocument(file, [&recorded](const nlohmann::ordered_json& document) {
+  const int cycles = ReadDocument(file, "result", [&recorded](const nlohmann::ordered_json& document) {
     recorded.end = document.at("status").get<std::string>();
     recorded.reason = document.at("reason").get<std::string>();
     return document.at("iterations").get<int>();

@@ -1,6 +1,7 @@
 #include "servo/control_law.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
@@ -215,12 +216,23 @@ void ServoPoseFromEdges(const Situation& now, const LawInput& input, LawResult& 
       FitPoseToEdges(now.model.robot, now.model.camera_from_base, seen, result.base_from_platform);
   if (pose.status == EdgePoseStatus::kConverged) {
     const Vector6d scale = RotationsByRadius(now.model).cwiseInverse();
-    result.error_noise = std::sqrt((scale.asDiagonal() * pose.covariance * scale.asDiagonal()).trace());
-    ServoPose(now, pose.base_from_platform, result);
+    const Matrix6d covariance = scale.asDiagonal() * pose.covariance * scale.asDiagonal();
+    result.error_noise = std::sqrt(covariance.trace());
+    // As of the edges' whitened interaction matrix.
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariance, Eigen::EigenvaluesOnly);
+    result.singular_values = eigen.eigenvalues().cwiseSqrt().cwiseInverse();
+    if (!(result.Conditioning() >= now.options.least_conditioning))
+      result.status = LawStatus::kIllConditionedEdges;
+    else
+      ServoPose(now, pose.base_from_platform, result);
     return;
   }
-  result.status =
-      pose.status == EdgePoseStatus::kTooFewEdges ? LawStatus::kTooFewEdges : LawStatus::kNoPoseFromEdges;
+  result.singular_values.setConstant(kNan);
+  const bool are_enough = result.edges >= kLeastEdges && result.legs >= kLeastLegs;
+  if (pose.status == EdgePoseStatus::kNotConverged)
+    result.status = LawStatus::kNoPoseFromEdges;
+  else
+    result.status = are_enough ? LawStatus::kIllConditionedEdges : LawStatus::kTooFewEdges;
 }
 
 // How far the robot is from a singularity, and where it is; false where it cannot be driven from there.

@@ -25,6 +25,8 @@ CycleOutput ServoController::Cycle(const CycleInput& input) {
       {input.seen, input.readings.joint_readings_m, supervisor_.WaySinceReadings(), base_from_platform_},
       options_.step);
   base_from_platform_ = output.step.law.base_from_platform;
+  if (!output.step.joint_speeds_m_per_s.allFinite())
+    supervisor_.End(ServoEnd::kFailed, "the law gave speeds that are not numbers");
   output.verdict = supervisor_.Judge(input, output.step);
   if (output.verdict.end == ServoEnd::kRunning && !output.verdict.is_waiting)
     output.joint_speeds_m_per_s = output.step.joint_speeds_m_per_s;

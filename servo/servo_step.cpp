@@ -20,9 +20,10 @@ void SlowNearSingularity(const ServoStepOptions& options, ServoStep& step) {
   const LawResult& law = step.law;
   const double robot =
       FactorNear(law.robot_conditioning, options.law.least_robot_conditioning, options.slow_conditioning);
-  const bool looks = options.law.mode == ControlMode::kEdges || options.law.mode == ControlMode::kDirections;
   const double sight =
-      looks ? FactorNear(law.Conditioning(), options.law.least_conditioning, options.slow_conditioning) : 1;
+      LooksAtImages(options.law)
+          ? FactorNear(law.Conditioning(), options.law.least_conditioning, options.slow_conditioning)
+          : 1;
   step.singularity_factor = std::min(robot, sight);
   step.is_robot_near_singularity = robot < sight;
   step.joint_speeds_m_per_s *= step.singularity_factor;

@@ -182,9 +182,12 @@ void Supervisor::Note(const CycleInput& input, const Vector6d& commanded_m_per_s
     readings_changed_s_ = input.readings.time_s;
     answered_by_readings_m_ = way_at_readings_m;
     seen_at_readings_ = input.seen;
-    // What was commanded after they were taken is still ahead of them.
-    way_since_readings_m_ = (input.time_s - input.readings.time_s) * commanded_m_per_s;
   }
+  for (int i = 0; i < kLegCount; ++i)  // what was commanded after it was taken is still ahead of a reading
+    if (input.readings.joint_readings_m[i] != before_->readings.joint_readings_m[i])
+      way_since_readings_m_[i] = (input.time_s - input.readings.time_s) * commanded_m_per_s[i];
+  if (input.readings.time_s != before_->readings.time_s)
+    following_.Note(input.readings.time_s, way_at_readings_m, input.readings.joint_readings_m);
   if (!SameEdges(input.seen, before_->seen)) {
     images_changed_s_ = input.seen.time_s;
     answered_by_images_m_ = way_at_image_m;
@@ -244,12 +247,15 @@ std::optional<Verdict> Supervisor::JudgeInput(const CycleInput& input) const {
       bad[static_cast<size_t>(i)] = !std::isfinite(input.readings.joint_readings_m[i]);
     return Ended(ServoEnd::kBadReadings, fmt::format("joint readings of {} are not numbers", LegList(bad)));
   }
+  const auto is_fresh = [this](double age_s) {  // false for what is no number, too
+    return age_s >= -options_.stale_s && age_s <= options_.stale_s + kTimeSlack_s;
+  };
   const double readings_age_s = input.time_s - input.readings.time_s;
-  if (readings_age_s > options_.stale_s + kTimeSlack_s)
+  if (!is_fresh(readings_age_s))
     return Ended(ServoEnd::kStaleReadings,
                  fmt::format("no fresh joint readings: the newest are {:.2f} s old", readings_age_s));
   const double image_age_s = input.time_s - input.seen.time_s;
-  if (LooksAtImages(law_) && image_age_s > options_.stale_s + kTimeSlack_s)
+  if (LooksAtImages(law_) && !is_fresh(image_age_s))
     return Ended(ServoEnd::kStaleImages,
                  fmt::format("no fresh image: the newest is {:.2f} s old", image_age_s));
   return std::nullopt;
@@ -285,7 +291,24 @@ std::optional<Verdict> Supervisor::JudgeAnswers(const CycleInput& input) const {
     return Ended(ServoEnd::kFrozenImages,
                  fmt::format("the images have not changed for {:.2f} s{}: they are frozen", images_for_s,
                              images_stand ? " though " + way_text(by_images) : ", not even by their noise"));
-  return std::nullopt;
+  return JudgeFollowing();
+}
+
+// Joint by joint: one frozen reading among others, or drives that stand while their readings are noisy.
+std::optional<Verdict> Supervisor::JudgeFollowing() const {
+  const bool all_stand = !unanswered_by_readings_m_.isZero(0);  // judged above, with the images
+  const auto behind = all_stand ? std::nullopt : following_.Farthest(options_.unanswered_m);
+  if (!behind) return std::nullopt;
+  const std::string way = fmt::format("leg {} was commanded by {:.1f} mm in {:.2f} s", behind->joint + 1,
+                                      1e3 * behind->commanded_m, behind->for_s);
+  if (behind->has_not_changed)
+    return Ended(
+        ServoEnd::kFrozenReadings,
+        fmt::format("{} and its joint reading has not changed: it is frozen, or the drives do not move",
+                    way));
+  return Ended(ServoEnd::kDrivesDoNotMove,
+               fmt::format("{} and moved by {:.1f} mm: the drives do not move, or its joint reading is wrong",
+                           way, 1e3 * behind->made_m));
 }
 
 bool Supervisor::HaveJointsMovedSinceImages() const {
@@ -348,7 +371,7 @@ bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
   smallest = std::min(smallest, error);
   constexpr double kNoises = 3;  // what noise leaves is no growth
   const double allowed =
-      std::max(options_.growth_factor * smallest + options_.growth_tolerances * options_.tolerance,
+      std::max(options_.growth_factor * smallest + options_.growth_tolerances * DefaultTolerance(law_.mode),
                kNoises * step.law.error_noise);
   if (error <= allowed) {
     growing_since_s_.reset();
@@ -361,8 +384,10 @@ bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
   recent_.push_back({input.time_s, EdgesBehind(input), step.law.error,
-                     step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(), step.speed_factor < 1, step.at_shortest,
-                     step.at_longest, input.readings.joint_readings_m, commanded_way_m_});
+                     step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
+                     (step.law.metric * step.law.to_go_m).squaredNorm() / kLegCount, step.singularity_factor,
+                     step.speed_factor < 1, step.at_shortest, step.at_longest,
+                     input.readings.joint_readings_m, commanded_way_m_});
   if (input.time_s - recent_.front().time_s < options_.stall_s - kTimeSlack_s) return std::nullopt;
   const double middle_s = input.time_s - options_.stall_s / 2;
   double sums[2] = {0, 0}, counts[2] = {0, 0};
@@ -381,13 +406,24 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
     recent_.clear();
     return std::nullopt;
   }
-  if (!falls && mean <= options_.tolerance_in_noise * step.law.error_noise)
+  if (!falls && IsNoiseAlone(mean, step.law.error_noise))
     return Ended(ServoEnd::kConverged,
                  fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
                              ErrorText(mean), ErrorText(step.law.error_noise)));
   if (!falls) return WhyStalled(step);
   recent_.pop_front();
   return std::nullopt;
+}
+
+// Whether what is left is no more than noise: by the error itself, and, where each edge has its weight, by
+// the way to go, of which noise of image and goal leaves a mean square of 1 and 1.
+bool Supervisor::IsNoiseAlone(double mean_error, double error_noise) const {
+  if (!(mean_error <= options_.tolerance_in_noise * error_noise)) return false;
+  if (!law_.is_weighted || law_.mode != ControlMode::kEdges) return true;
+  double sum = 0;
+  for (const Moment& moment : recent_) sum += moment.noises;
+  return sum <=
+         2 * options_.tolerance_in_noise * options_.tolerance_in_noise * static_cast<double>(recent_.size());
 }
 
 // Whether the speed limit alone makes it slow: mostly at the limit, and not to and fro as noise drives it.
@@ -438,10 +474,21 @@ Verdict Supervisor::WhyStalled(const ServoStep& step) const {
         ServoEnd::kStalled,
         fmt::format("{}, {}: the goal is out of the joint ranges{}", error, DescribeLimits(held),
                     step.law.error_noise > options_.tolerance ? ", or noise drives the joints there" : ""));
+  constexpr double kHeldFactor = 0.3;
+  if (recent_.back().singularity_factor < kHeldFactor)
+    return Ended(step.is_robot_near_singularity ? ServoEnd::kRobotSingular : ServoEnd::kIllConditionedEdges,
+                 fmt::format("{}: {}", error, DescribeLimits(step)));
   const Vector6d commanded_m = commanded_way_m_ - recent_.front().commanded_way_m;
   const Vector6d moved_m = recent_.back().readings_m - recent_.front().readings_m;
   const FarthestLeg farthest = Farthest(commanded_m);
-  if (farthest.way_m > kLeastWay_m && std::abs(moved_m[farthest.leg]) < kFollowedShare * farthest.way_m)
+  double whole_way_m = 0;
+  for (size_t i = 1; i < recent_.size(); ++i)
+    whole_way_m +=
+        std::abs(recent_[i].commanded_way_m[farthest.leg] - recent_[i - 1].commanded_way_m[farthest.leg]);
+  // Commands to and fro say nothing: their drives lag behind.
+  const bool is_one_way = 2 * farthest.way_m > whole_way_m;
+  if (farthest.way_m > kLeastWay_m && is_one_way &&
+      std::abs(moved_m[farthest.leg]) < kFollowedShare * farthest.way_m)
     return Ended(
         ServoEnd::kStalled,
         fmt::format("{}: the drive of leg {} does not follow, it was commanded by {:.2f} mm in {:.1f} s "

@@ -9,6 +9,7 @@
 
 #include "core/rig/rig.h"
 #include "core/vision/seen_edges.h"
+#include "servo/joint_following.h"
 #include "servo/servo_step.h"
 
 namespace legible {
@@ -45,7 +46,7 @@ struct SupervisorOptions {
   double stale_s = 0.1;        // oldest image, oldest readings
   double unusable_s = 0.5;     // for which too little may be seen: the robot waits
   double unanswered_m = 3e-3;  // of commanded way that nothing answers
-  double growth_factor = 1.5;  // over the smallest error so far, and as many tolerances as below
+  double growth_factor = 1.5;  // over the smallest error so far, and as many default tolerances as below
   double growth_tolerances = 50;
   double growth_s = 0.5;
   double stall_s = 3;  // in which the error must fall by stall_share
@@ -76,7 +77,7 @@ class Supervisor {
  public:
   Supervisor(const ControlLawOptions& law, const SupervisorOptions& options);
 
-  // How far the joints were commanded since the readings last changed, m.
+  // How far each joint was commanded since its reading last changed, m.
   const Vector6d& WaySinceReadings() const { return way_since_readings_m_; }
 
   // To be told of each cycle before the step: what came, and the speeds commanded since the last one.
@@ -91,6 +92,8 @@ class Supervisor {
     double time_s;
     std::bitset<2 * kLegCount> edges;  // behind the error
     double error, fastest_m_per_s;
+    double noises;  // mean square of the way to go, in what noise makes of it; of a weighted law
+    double singularity_factor;
     bool is_at_speed_limit;
     std::bitset<kLegCount> at_shortest, at_longest;
     Vector6d readings_m, commanded_way_m;
@@ -98,6 +101,7 @@ class Supervisor {
 
   std::optional<Verdict> JudgeInput(const CycleInput& input) const;
   std::optional<Verdict> JudgeAnswers(const CycleInput& input) const;
+  std::optional<Verdict> JudgeFollowing() const;
   bool HaveJointsMovedSinceImages() const;
   std::optional<Verdict> JudgeUsability(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeProgress(const CycleInput& input, const ServoStep& step);
@@ -109,6 +113,7 @@ class Supervisor {
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);
   Vector6d CommandedWayAt(double time_s) const;
   bool IsOnItsWay() const;
+  bool IsNoiseAlone(double mean_error, double error_noise) const;
   std::bitset<kLegCount> MostlyHeld(std::bitset<kLegCount> Moment::*held) const;
   Verdict WhyStalled(const ServoStep& step) const;
   std::string ErrorText(double error) const;
@@ -120,6 +125,7 @@ class Supervisor {
   std::optional<CycleInput> before_;
   double readings_changed_s_ = 0, images_changed_s_ = 0;
   Vector6d way_since_readings_m_ = Vector6d::Zero();
+  JointFollowing following_;
   struct CommandedWay {
     double time_s;
     Vector6d way_m;
