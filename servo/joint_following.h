@@ -24,7 +24,7 @@ class JointFollowing {
   std::optional<Behind> Farthest(double way_m) const;
 
  private:
-  static constexpr double kWindow_s = 0.8;    // longest that is looked back
+  static constexpr double kLongest_s = 0.5;   // longest that is looked back
   static constexpr double kLeast_s = 0.25;    // shortest: drives answer with a lag
   static constexpr double kSettled_s = 0.15;  // before that, in which it was not commanded the other way
   static constexpr double kFollowed = 0.2;
