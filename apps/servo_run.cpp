@@ -220,7 +220,7 @@ std::string NumbersText(const Vector6d& numbers) {
 // As it was asked for.
 std::string GoalText(const GoalSetting& goal) {
   if (goal.pose) return "pose " + NumbersText(*goal.pose);
-  const std::string joints = goal.joints_m ? "joints " + NumbersText(*goal.joints_m) : "";
+  std::string joints = goal.joints_m ? "joints " + NumbersText(*goal.joints_m) : "";
   if (!goal.image) return joints;
   return "image " + goal.image->string() + (joints.empty() ? "" : ", " + joints);
 }

@@ -189,8 +189,9 @@ std::string OptionsToYaml(const SimulationOptions& options) {
   std::string text = NumbersToYaml(options, kSimulationFields) + fmt::format("seed: {}\n", options.seed);
   if (options.start) text += fmt::format("start: {}\n", RigidText(*options.start));
   text += "drives:\n" + Indented(NumbersToYaml(options.drives, kDriveFields));
-  text += "scene:\n" + Indented(NumbersToYaml(options.scene, kSceneFields) +
-                                fmt::format("light_in_camera: {}\n", ListText(options.scene.light_in_camera)));
+  text +=
+      "scene:\n" + Indented(NumbersToYaml(options.scene, kSceneFields) +
+                            fmt::format("light_in_camera: {}\n", ListText(options.scene.light_in_camera)));
   if (options.faults.empty()) return text;
   text += "faults:\n";
   for (const Fault& fault : options.faults) text += Indented(FaultToYaml(fault));

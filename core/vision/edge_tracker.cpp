@@ -185,8 +185,9 @@ void EdgeTracker::DropJumps(const ModelledView& view, double time_s, LegEdges& e
 
 // Leaves out what disagrees with the others.
 void EdgeTracker::Correct(const ModelledView& model, LegEdges& edges) {
-  const ModelledView view = CorrectView(model, Corrected(model.base_from_platform), MeasuredOf(camera_, edges),
-                                        {options_.model_errors, options_.drift, correction_->leg_m, 2});
+  const ModelledView view =
+      CorrectView(model, Corrected(model.base_from_platform), MeasuredOf(camera_, edges),
+                  {options_.model_errors, options_.drift, correction_->leg_m, 2});
   correction_->camera = Displacement(model.camera_from_base, view.camera_from_base);
   correction_->platform = Displacement(model.base_from_platform, view.base_from_platform);
   DropBeyond(view, options_.leg_gate_sigmas * correction_->leg_m, edges);
