@@ -43,15 +43,8 @@ void AddOutputOptions(CLI::App& command, CalibrateSettings& settings) {
       ->check([](const std::string& text) { return text.empty() ? "name a folder" : std::string(); })
       ->type_name("DIR")
       ->default_str(settings.out.string());
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&settings](const std::string& format) {
-            DemandOneOf("--format", format, {"table", "json"});
-            settings.prints_json = format == "json";
-          },
-          "What goes to standard output: a table for\npeople, or the text of calibration.json")
-      ->type_name("table|json");
+  AddTableOrJson(command, settings.prints_json,
+                 "What goes to standard output: a table for\npeople, or the text of calibration.json");
   command.add_flag_callback(
       "--no-pictures", [&settings] { settings.embeds_pictures = false; },
       "Leave the images out of report.html");

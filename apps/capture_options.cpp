@@ -89,15 +89,9 @@ void AddOutputOptions(CLI::App& command, CaptureSettings& settings) {
       ->check([](const std::string& text) { return text.empty() ? "name a folder" : std::string(); })
       ->type_name("SESSION");
   command.add_flag("--resume", settings.resumes, "Go on with the session there, if there is one");
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&settings](const std::string& format) {
-            DemandOneOf("--format", format, {"table", "json"});
-            settings.prints_json = format == "json";
-          },
-          "What goes to standard output: lines for people, or\nJSON with every image and what it was worth")
-      ->type_name("table|json");
+  AddTableOrJson(
+      command, settings.prints_json,
+      "What goes to standard output: lines for people, or\nJSON with every image and what it was worth");
 }
 
 }  // namespace

@@ -64,6 +64,14 @@ void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::o
       ->allow_extra_args(false);
 }
 
+void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description) {
+  const auto take = [&prints_json](const std::string& format) {
+    DemandOneOf("--format", format, {"table", "json"});
+    prints_json = format == "json";
+  };
+  command.add_option_function<std::string>("--format", take, description)->type_name("table|json");
+}
+
 void AddThreadsOption(CLI::App& command, int& threads) {
   threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command.add_option("--threads", threads, "How many threads work at a time;\nwithout it one a processor")

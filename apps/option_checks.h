@@ -33,6 +33,9 @@ CLI::Option* AddText(CLI::App& command, const std::string& name, const std::stri
 void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::optional<double>>>& known,
                     const std::string& description);
 
+// "--format table|json".
+void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description);
+
 // "--threads", one a processor unless given.
 void AddThreadsOption(CLI::App& command, int& threads);
 

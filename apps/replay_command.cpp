@@ -101,15 +101,8 @@ const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
   CLI::App* command = program.add_subcommand("replay", kDescription)->group("Commands");
   command->footer(kFooter);
   command->add_option("LOG", settings.log, "Folder of a servo's log")->required()->type_name("");
-  command
-      ->add_option_function<std::string>(
-          "--format",
-          [&settings](const std::string& format) {
-            DemandOneOf("--format", format, {"table", "json"});
-            settings.prints_json = format == "json";
-          },
-          "What goes to standard output: lines for people, or one\nJSON document")
-      ->type_name("table|json");
+  AddTableOrJson(*command, settings.prints_json,
+                 "What goes to standard output: lines for people, or one\nJSON document");
   return command;
 }
 

@@ -163,15 +163,8 @@ void AddRigOptions(CLI::App& command, ServoSettings& settings) {
       ->type_name("DIR")
       ->capture_default_str();
   command.add_flag("--keep-images", settings.keeps_images, "Keep every image in the log");
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&settings](const std::string& format) {
-            DemandOneOf("--format", format, {"table", "json"});
-            settings.prints_json = format == "json";
-          },
-          "What goes to standard output: lines for people, or the\ntext of result.json")
-      ->type_name("table|json");
+  AddTableOrJson(command, settings.prints_json,
+                 "What goes to standard output: lines for people, or the\ntext of result.json");
 }
 
 void DemandOneGoal(const GoalSetting& goal) {
