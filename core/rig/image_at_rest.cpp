@@ -41,8 +41,10 @@ class Rest {
   }
 
  private:
-  static ImageAtRest Missing(const std::string& why) {
+  // With the newest readings, which may be why.
+  ImageAtRest Missing(const std::string& why) const {
     ImageAtRest none;
+    none.readings = readings_.back();
     none.missing = why;
     return none;
   }

@@ -21,7 +21,7 @@ struct RestOptions {
 struct ImageAtRest {
   std::string missing;  // why there is none, in words; empty: there is one
   StampedImage image;
-  StampedReadings readings;  // those nearest in time to the exposure
+  StampedReadings readings;  // those nearest in time to the exposure; the newest where there is no image
 };
 
 // Reads the joints until the means of both halves of the last readings agree within their noise, for every

@@ -86,8 +86,9 @@ TEST(ImageAtRest, SaysThatNoImageComes) {
 }
 
 TEST(ImageAtRest, SaysThatReadingsAreNoNumbersAndThatTheUserStopped) {
-  EXPECT_THAT(TakeAfterMotion(WithFault({FaultKind::kReadingsNan, 0.6}), {}).image.missing,
-              HasSubstr("not numbers"));
+  const ImageAtRest blind = TakeAfterMotion(WithFault({FaultKind::kReadingsNan, 0.6}), {}).image;
+  EXPECT_THAT(blind.missing, HasSubstr("not numbers"));
+  EXPECT_FALSE(blind.readings.joint_readings_m.allFinite());
   RestOptions options;
   options.is_stopped = [] { return true; };
   EXPECT_EQ(TakeAfterMotion({}, options).image.missing, "stopped by the user");
