@@ -111,6 +111,24 @@ TEST(TrackedEdges, AreTheSameAgainWhereNoNewerImageHasCome) {
   EXPECT_EQ(times_s[3], 0.2);
 }
 
+// Though the robot moves on, and with it the place where the legs are expected: a supervisor must see it.
+TEST(TrackedEdges, AreTheSameToTheLastBitWhereTheCameraRepeatsItsImage) {
+  const RobotAndDrawing robot = DrawRobot(6, true);
+  FollowedRig followed(robot, robot.Perfect(), WithFault(Fault{FaultKind::kFramesFrozen, 0.05}));
+  followed.Command(Vector6d::Constant(0.02));
+  SeenEdges frozen;
+  for (int frame = 0; frame < 10; ++frame) {
+    followed.rig.WaitUntil(0.02 * frame);
+    const SeenEdges seen = followed.See();
+    EXPECT_NEAR(seen.time_s, 0.02 * frame, 1e-9);
+    if (frame > 3) {
+      ASSERT_EQ(seen.edges.size(), frozen.edges.size());
+      for (size_t i = 0; i < seen.edges.size(); ++i) EXPECT_EQ(seen.edges[i].normal, frozen.edges[i].normal);
+    }
+    frozen = seen;
+  }
+}
+
 TEST(TrackedEdges, GoOnWhereReadingsAreNotNumbers) {
   const RobotAndDrawing robot = DrawRobot(7, true);
   FollowedRig followed(robot, robot.Perfect(), WithFault(Fault{FaultKind::kReadingsNan, 0.05, 0.1}));
