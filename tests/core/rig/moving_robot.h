@@ -78,7 +78,7 @@ class Wandering {
           reach[i] * (std::sin(a.phase + a.rate * time_s) + std::sin(b.phase + b.rate * time_s)) / 1.3;
     }
     for (double share = 1; share > 0; share -= 0.05) {
-      const Rigid3 pose = Displaced(robot_.home, share * displacement);
+      Rigid3 pose = Displaced(robot_.home, share * displacement);
       if (JointsOutOfRange(robot_, InverseKinematics(robot_, pose)).empty()) return pose;
     }
     return robot_.home;
