@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/calibrate_settings.h"
 #include "apps/json_text.h"
 
 namespace legible {
@@ -141,9 +142,6 @@ const std::vector<NamedValue<PoseSource>> kPoseSources = {{PoseSource::kReadings
                                                           {PoseSource::kEdges, "edges"}};
 const std::vector<NamedValue<DirectionSource>> kDirectionSources = {{DirectionSource::kEdges, "edges"},
                                                                     {DirectionSource::kModel, "model"}};
-const std::vector<NamedValue<LensModel>> kLenses = {{LensModel::kPinhole, "pinhole"},
-                                                    {LensModel::kBrownConrady, "brown-conrady"},
-                                                    {LensModel::kRational, "rational"}};
 
 template <typename E>
 std::string NameOf(const std::vector<NamedValue<E>>& names, E value) {
@@ -202,7 +200,7 @@ ordered_json ModelToJson(const ServoModel& model) {
   VisitCamera(camera, model.camera);
   camera.json["width_px"] = model.camera.width_px;
   camera.json["height_px"] = model.camera.height_px;
-  camera.json["lens"] = NameOf(kLenses, model.camera.lens);
+  camera.json["lens"] = LensName(model.camera.lens);
   return {{"robot", {{"name", model.robot.name}, {"home", ToJson(model.robot.home)}, {"legs", legs}}},
           {"camera", camera.json},
           {"camera_from_base", ToJson(model.camera_from_base)}};
@@ -222,7 +220,9 @@ ServoModel ModelFromJson(const ordered_json& json) {
   VisitCamera(read, camera);
   camera.width_px = camera_json.at("width_px").get<int>();
   camera.height_px = camera_json.at("height_px").get<int>();
-  camera.lens = ValueOf(kLenses, camera_json.at("lens"));
+  const std::optional<LensModel> lens = LensFromName(camera_json.at("lens").get<std::string>());
+  if (!lens) throw std::invalid_argument("a lens model that is not known");
+  camera.lens = *lens;
   Rigid3 camera_from_base;
   FromJson(json.at("camera_from_base"), camera_from_base);
   return MakeServoModel(robot, camera, camera_from_base);

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "core/geometry/tangents.h"
+#include "servo/edge_motion.h"
 
 namespace legible {
 namespace {
@@ -17,44 +16,6 @@ constexpr double kLongestMemory_s = 1;  // older readings and images end it
 constexpr double kFollowedShare = 0.2;  // of a commanded way that a drive makes at least if it follows
 constexpr double kLeastWay_m = 5e-5;    // that says anything about following
 constexpr double kSureWay_m = 2e-4;     // that is more than the noise of readings
-
-bool SameEdges(const SeenEdges& a, const SeenEdges& b) {
-  return std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
-                    [](const SeenEdge& one, const SeenEdge& other) {
-                      return one.leg == other.leg && one.edge == other.edge && one.normal == other.normal;
-                    });
-}
-
-// With noise that shows no image comes twice. (An image-free simulation without noise states very little.)
-bool HasNoise(const SeenEdges& seen) {
-  constexpr double kLeastNoise_rad = 3e-6;
-  const auto has_noise = [](const SeenEdge& edge) {
-    return edge.normal_covariance.trace() > kLeastNoise_rad * kLeastNoise_rad;
-  };
-  return !seen.edges.empty() && std::all_of(seen.edges.begin(), seen.edges.end(), has_noise);
-}
-
-// Whether the edges have moved by more than the noise of both images can do, and by more than a reading's
-// step: by their normalised squares, two an edge, of which noise leaves a mean of 1.
-bool HaveMoved(const SeenEdges& before, const SeenEdges& now) {
-  constexpr double kMostMeanSquare = 2.5;
-  constexpr double kNoMotion_rad = 3e-5;
-  const EdgesByLeg edges_before = ByLeg(before);
-  double squares = 0;
-  int count = 0;
-  for (const SeenEdge& edge : now.edges) {
-    const auto& same = edges_before[static_cast<size_t>(edge.leg)][static_cast<size_t>(edge.edge)];
-    if (!same) continue;
-    const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(edge.normal);
-    const Eigen::Matrix2d covariance =
-        kNoMotion_rad * kNoMotion_rad * Eigen::Matrix2d::Identity() +
-        tangents.transpose() * (edge.normal_covariance + same->normal_covariance) * tangents;
-    const Eigen::Vector2d moved = tangents.transpose() * (edge.normal - same->normal);
-    squares += moved.dot(covariance.inverse() * moved);
-    count += 2;
-  }
-  return count > 0 && !(squares <= kMostMeanSquare * count);
-}
 
 Verdict Ended(ServoEnd end, const std::string& reason) { return {end, reason, false, 0}; }
 

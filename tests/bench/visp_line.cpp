@@ -1,28 +1,13 @@
 #include "tests/bench/visp_line.h"
 
-#include <visp3/me/vpMe.h>
 #include <visp3/me/vpMeLine.h>
 
 #include <algorithm>
 #include <ctime>
 
+#include "tests/bench/visp_moving_edges.h"
+
 namespace legible {
-namespace {
-
-// The settings of ViSP's own line tutorial, with the search range of the band fit.
-vpMe MovingEdges() {
-  vpMe me;
-  me.setMaskSize(5);
-  me.setMaskNumber(180);
-  me.setRange(8);
-  me.setThreshold(5000);
-  me.setMu1(0.5);
-  me.setMu2(0.5);
-  me.setSampleStep(4);
-  return me;
-}
-
-}  // namespace
 
 VispLine FindLineWithVisp(const std::uint8_t* pixels, int width, int height, double start_x, double start_y,
                           double end_x, double end_y) {

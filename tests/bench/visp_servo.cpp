@@ -1,7 +1,6 @@
 #include "tests/bench/visp_servo.h"
 
 #include <visp3/core/vpException.h>
-#include <visp3/me/vpMe.h>
 #include <visp3/me/vpMeLine.h>
 #include <visp3/vs/vpServo.h>
 
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "servo/visp_leg_edge.h"
+#include "tests/bench/visp_moving_edges.h"
 
 namespace legible {
 
@@ -50,19 +50,6 @@ Vector6d VispServo::Speeds(const SeenEdges& seen, const LegDirections& direction
 }
 
 namespace {
-
-// The settings of ViSP's own line tutorial, with the search range of the profile fit.
-vpMe MovingEdges() {
-  vpMe me;
-  me.setMaskSize(5);
-  me.setMaskNumber(180);
-  me.setRange(8);
-  me.setThreshold(5000);
-  me.setMu1(0.5);
-  me.setMu2(0.5);
-  me.setSampleStep(4);
-  return me;
-}
 
 vpImagePoint ToImagePoint(const Camera& camera, const Eigen::Vector2d& point) {
   const Eigen::Vector2d pixel = ProjectNormalised(camera, point);

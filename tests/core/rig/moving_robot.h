@@ -13,16 +13,6 @@
 
 namespace legible {
 
-inline Camera Halved(Camera camera) {
-  camera.width_px /= 2;
-  camera.height_px /= 2;
-  camera.fx_px /= 2;
-  camera.fy_px /= 2;
-  camera.cx_px = (camera.cx_px + 0.5) / 2 - 0.5;
-  camera.cy_px = (camera.cy_px + 0.5) / 2 - 0.5;
-  return camera;
-}
-
 // What the program believes of the robot.
 struct BelievedRobot {
   GoughStewart robot;

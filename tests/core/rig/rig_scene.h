@@ -9,9 +9,8 @@
 
 namespace legible {
 
-// The desk's camera with half as many pixels each way.
-inline Camera HalfCamera(bool is_distorted) {
-  Camera camera = DesktopCamera(is_distorted);
+// With half as many pixels each way.
+inline Camera Halved(Camera camera) {
   camera.width_px /= 2;
   camera.height_px /= 2;
   camera.fx_px /= 2;
@@ -20,6 +19,8 @@ inline Camera HalfCamera(bool is_distorted) {
   camera.cy_px = (camera.cy_px + 0.5) / 2 - 0.5;
   return camera;
 }
+
+inline Camera HalfCamera(bool is_distorted) { return Halved(DesktopCamera(is_distorted)); }
 
 inline SimulationTruth DesktopTruth(const Camera& camera) {
   return {DesktopHexapod(), camera, LookAt({0.94, 0.074, 0.285}, {0, 0, 0.13})};
