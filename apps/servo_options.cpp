@@ -6,6 +6,7 @@
 #include "apps/option_checks.h"
 #include "apps/option_values.h"
 #include "apps/servo_command.h"
+#include "servo/servo_loop.h"
 
 namespace legible {
 namespace {
@@ -134,7 +135,8 @@ void AddMotionOptions(CLI::App& command, ServoSettings& settings) {
   add_positive("--range-margin", "M", step.limits.range_margin_m,
                "What joints keep from the ends of their ranges, m");
   add_positive("--timeout", "S", supervision.timeout_s, "Stops after so long, s");
-  add_positive("--period", "S", settings.period_s, "From command to command, s");
+  add_positive("--period", "S", settings.period_s,
+               fmt::format("From command to command, s, {:g} at most", ServoLoopOptions::kLongestPeriod_s));
   AddText(
       command, "--tolerance", "ERROR",
       [&supervision](const std::string& text) {

@@ -226,12 +226,10 @@ std::string GoalText(const GoalSetting& goal) {
 }
 
 // Commands that are held too long lead beyond ranges and goals.
-void DemandSlowEnough(const ServoSettings& settings) {
-  const double look_ahead_s = settings.options.step.limits.look_ahead_s;
-  if (settings.period_s > look_ahead_s / 5)
-    throw std::invalid_argument(
-        fmt::format("a period of {} s is too long to keep the joint ranges: give {} s at most",
-                    settings.period_s, look_ahead_s / 5));
+void DemandShortPeriod(const ServoSettings& settings) {
+  ServoLoopOptions loop;
+  loop.period_s = settings.period_s;
+  loop.Check();
   if (settings.options.step.gain.at_zero_per_s * settings.period_s >= 1)
     throw std::invalid_argument("the gain times the period must stay below 1");
 }
@@ -265,7 +263,7 @@ PreparedServo PrepareServo(const ServoSettings& settings) {
   try {
     DemandGoal(setup.goal, setup.options.step.law);
     setup.options.Check();
-    DemandSlowEnough(settings);
+    DemandShortPeriod(settings);
   } catch (const std::invalid_argument& error) {
     throw InputError(settings.goal.image.value_or(settings.model), 0, "cannot be servoed to like this",
                      error.what());

@@ -50,15 +50,23 @@ bool IsHopeless(ServoEnd end) {
   }
 }
 
+ServoLoopOptions LoopOf(const JointDriveOptions& options) {
+  ServoLoopOptions loop;
+  loop.period_s = options.period_s;
+  loop.is_stopped = options.is_stopped;
+  return loop;
+}
+
 }  // namespace
 
 void JointDriveOptions::Check() const {
   if (!(tolerance_m > 0) || !(near_enough_m >= tolerance_m))
     throw std::invalid_argument(
         "JointDriveOptions: tolerance_m must be positive and near_enough_m not smaller");
-  if (!(gain_per_s > 0) || !(period_s > 0) || !(timeout_s > 0))
-    throw std::invalid_argument("JointDriveOptions: gain_per_s, period_s and timeout_s must be positive");
+  if (!(gain_per_s > 0) || !(timeout_s > 0))
+    throw std::invalid_argument("JointDriveOptions: gain_per_s and timeout_s must be positive");
   limits.Check();
+  LoopOf(*this).Check();
 }
 
 JointDrive DriveJoints(Rig& rig, const GoughStewart& robot, const Vector6d& joint_readings_m,
@@ -69,10 +77,7 @@ JointDrive DriveJoints(Rig& rig, const GoughStewart& robot, const Vector6d& join
   ServoController controller(MakeServoModel(robot, AnyCamera(), Rigid3()), goal, OptionsOf(options));
   NoEdges nothing;
   double to_go_m = INFINITY;
-  ServoLoopOptions loop;
-  loop.period_s = options.period_s;
-  loop.is_stopped = options.is_stopped;
-  const ServoRun run = RunServo(rig, nothing, controller, loop,
+  const ServoRun run = RunServo(rig, nothing, controller, LoopOf(options),
                                 [&](const ServoCycle& cycle) { to_go_m = cycle.output.step.law.error; });
   JointDrive drive;
   drive.end = run.end;

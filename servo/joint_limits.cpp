@@ -1,5 +1,7 @@
 #include "servo/joint_limits.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -109,9 +111,13 @@ class BoundedLeastSquares {
 }  // namespace
 
 void JointLimitOptions::Check() const {
-  if (!(speed_limit_m_per_s > 0) || !(range_margin_m >= 0) || !(look_ahead_s > 0))
+  if (!(speed_limit_m_per_s > 0) || !(range_margin_m >= 0))
     throw std::invalid_argument(
-        "JointLimitOptions: speed limit and look-ahead must be positive, the margin not negative");
+        "JointLimitOptions: speed_limit_m_per_s must be positive, range_margin_m not negative");
+  if (!(look_ahead_s >= Rig::kCommandHolds_s))
+    throw std::invalid_argument(
+        fmt::format("JointLimitOptions: look_ahead_s must be {} or more, for which a rig holds a command",
+                    Rig::kCommandHolds_s));
 }
 
 SpeedBounds BoundsByRange(const GoughStewart& robot, const Vector6d& joint_readings_m,

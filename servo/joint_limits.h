@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/rig/rig.h"
 #include "core/robots/gough_stewart.h"
 
 namespace legible {
@@ -11,8 +12,11 @@ struct JointLimitOptions {
   double speed_limit_m_per_s = 0.05;
   double range_margin_m = 5e-4;  // that the readings keep from the ends of joint_range_m
   // A joint may go no faster than it would need to reach its margin in this time. It comes to rest without
-  // passing the margin if this is at least four times the drives' lag and the control period together.
-  double look_ahead_s = 0.25;
+  // passing the margin if this is at least four times the drives' lag and the control period together. A
+  // command that nobody renews leads no joint past it either, if this is at least as long as a command holds,
+  // and longer by the drives' lag and the age of what the command was computed from: 50 ms are left for
+  // these.
+  double look_ahead_s = Rig::kCommandHolds_s + 0.05;
 
   void Check() const;  // throws std::invalid_argument
 };

@@ -32,14 +32,16 @@ std::optional<SeenEdges> SeeIfThereIsAnImage(EdgeSource& source, const MotionNow
   }
 }
 
-// At rest; the end of the servo if no image comes or the user wants no more.
-Verdict WaitForFirstImage(Rig& rig, EdgeSource& source, ServoController& controller,
-                          const ServoLoopOptions& options) {
+// The robot is at rest, and a first look may take long: nothing is stale by it. The end of the servo if no
+// image comes for a law that needs it, or the user wants no more.
+Verdict LookFirst(Rig& rig, EdgeSource& source, ServoController& controller,
+                  const ServoLoopOptions& options) {
   const double start_s = rig.Now();
   for (int round = 1; round * options.period_s <= options.first_image_s; ++round) {
     const StampedReadings readings = rig.ReadJoints();
-    if (SeeIfThereIsAnImage(source, {readings.time_s, readings.joint_readings_m, Vector6d::Zero()}))
-      return {};
+    const auto seen =
+        SeeIfThereIsAnImage(source, {readings.time_s, readings.joint_readings_m, Vector6d::Zero()});
+    if (seen || !controller.NeedsImages()) return {};
     if (options.is_stopped()) return controller.End(ServoEnd::kStoppedByUser, kStoppedByUser);
     rig.WaitUntil(start_s + round * options.period_s);
   }
@@ -67,9 +69,13 @@ ServoCycle RunCycle(Rig& rig, EdgeSource& source, ServoController& controller, c
 }  // namespace
 
 void ServoLoopOptions::Check() const {
-  if (!(period_s > 0) || !(first_image_s >= period_s))
+  if (!(period_s > 0) || period_s > kLongestPeriod_s)
     throw std::invalid_argument(
-        "ServoLoopOptions: period_s must be positive, first_image_s no less than that");
+        fmt::format("a period of {} s is out of range: give more than 0 and {} s at most, for a rig holds a "
+                    "command no longer than {} s",
+                    period_s, kLongestPeriod_s, Rig::kCommandHolds_s));
+  if (!(first_image_s >= period_s))
+    throw std::invalid_argument("ServoLoopOptions: first_image_s must be no less than period_s");
 }
 
 ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& options,
@@ -82,7 +88,7 @@ ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, con
     run.reason = verdict.reason;
   };
   try {
-    if (controller.NeedsImages()) take(WaitForFirstImage(rig, source, controller, options));
+    take(LookFirst(rig, source, controller, options));
     const double start_s = rig.Now();
     Vector6d commanded = Vector6d::Zero();
     while (run.end == ServoEnd::kRunning) {

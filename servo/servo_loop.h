@@ -12,6 +12,9 @@
 namespace legible {
 
 struct ServoLoopOptions {
+  // So that a few late cycles let no command lapse.
+  static constexpr double kLongestPeriod_s = Rig::kCommandHolds_s / 5;
+
   double period_s = 0.02;  // from command to command
   // For which the camera's first image is waited for, at rest.
   double first_image_s = 1;
@@ -35,9 +38,9 @@ struct ServoRun {
   double time_s = 0;  // of the rig's clock
 };
 
-// Waits for the first image, if the law needs images, and then, cycle by cycle: readings, edges, command. The
-// rig is at rest when this returns or throws; a rig that does
-// not answer ends the run as any other reason does. `record` is called after each command.
+// Has a first look at rest, however long it takes, and waits for the first image if the law needs images;
+// then, cycle by cycle: readings, edges, command. The rig is told to rest when this returns or throws; a rig
+// that does not answer ends the run as any other reason does. `record` is called after each command.
 ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& options,
                   const std::function<void(const ServoCycle&)>& record);
 

@@ -11,6 +11,7 @@ namespace {
 
 // Whoever adds up periods arrives at a multiple of them but for rounding.
 constexpr double kSameTime_s = 1e-9;
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 SimulationOptions Checked(SimulationOptions options) {
   options.Check();
@@ -26,12 +27,9 @@ SimulatedRig::SimulatedRig(SimulationTruth truth, SimulationOptions options, Pic
       drives_(options_.drives, truth_.robot,
               InverseKinematics(truth_.robot, options_.start.value_or(truth_.robot.home)), options_.seed),
       base_from_platform_(options_.start.value_or(truth_.robot.home)) {
-  for (const Fault& fault : options_.faults) {
-    if (fault.kind == FaultKind::kReadingsFrozen) events_.push_back({fault.from_s, fault.kind});
-    if (fault.kind == FaultKind::kLinkLost) events_.push_back({fault.from_s + kWatchdog_s, fault.kind});
-  }
-  std::stable_sort(events_.begin(), events_.end(),
-                   [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
+  for (const Fault& fault : options_.faults)
+    if (fault.kind == FaultKind::kReadingsFrozen) freezes_s_.push_back(fault.from_s);
+  std::sort(freezes_s_.begin(), freezes_s_.end());
   AdvanceTo(0);
 }
 
@@ -66,11 +64,11 @@ StampedReadings SimulatedRig::ReadJoints() {
 void SimulatedRig::CommandSpeeds(const Vector6d& joint_speeds_m_per_s) {
   DemandAnswer();
   drives_.Command(joint_speeds_m_per_s);
-  commanded_s_ = now_s_;
+  lapse_s_ = now_s_ + kCommandHolds_s;
 }
 
 void SimulatedRig::Stop() noexcept {
-  if (!IsActive(FaultKind::kLinkLost)) drives_.Halt();
+  if (!IsActive(FaultKind::kLinkLost)) Lapse();
 }
 
 const Frame& SimulatedRig::NewestFrame() {
@@ -100,12 +98,14 @@ void SimulatedRig::AdvanceTo(double time_s) {
   const auto is_whole = [&] { return kinematics_status_ == ForwardKinematicsStatus::kConverged; };
   while (is_whole()) {
     const double exposure_s = static_cast<double>(next_exposure_) * options_.period_s;
-    const bool is_event_next = next_event_ < events_.size() && events_[next_event_].time_s <= exposure_s;
-    const double next_s = is_event_next ? events_[next_event_].time_s : exposure_s;
+    const double freeze_s = next_freeze_ < freezes_s_.size() ? freezes_s_[next_freeze_] : kNever_s;
+    const double next_s = std::min({exposure_s, freeze_s, lapse_s_});
     MoveTo(std::min(next_s, time_s));
     if (next_s > time_s + kSameTime_s || !is_whole()) break;
-    if (is_event_next)
-      Fire(events_[next_event_++].kind);
+    if (next_s == lapse_s_)
+      Lapse();
+    else if (next_s == freeze_s)
+      Freeze();
     else
       Expose();
   }
@@ -122,11 +122,14 @@ void SimulatedRig::MoveTo(double time_s) {
   if (pose.status == ForwardKinematicsStatus::kConverged) base_from_platform_ = pose.base_from_platform;
 }
 
-void SimulatedRig::Fire(FaultKind kind) {
-  if (kind == FaultKind::kLinkLost) {
-    if (commanded_s_ <= now_s_ - kWatchdog_s) drives_.Halt();
-    return;
-  }
+// The drives' own doing: it needs no link.
+void SimulatedRig::Lapse() {
+  drives_.Halt();
+  lapse_s_ = kNever_s;
+}
+
+void SimulatedRig::Freeze() {
+  ++next_freeze_;
   const bool is_frozen_already =
       std::any_of(options_.faults.begin(), options_.faults.end(), [&](const Fault& fault) {
         return fault.kind == FaultKind::kReadingsFrozen && fault.from_s < now_s_ && fault.IsActiveAt(now_s_);

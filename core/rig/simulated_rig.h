@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,14 +39,11 @@ struct TrueMotion {
 // images, readings or edges are asked for changes nothing.
 //
 // Faults: see FaultKind. A lost link makes every call but Stop throw RigError (WaitUntil after the time has
-// gone on); the drives miss it and go to rest by themselves kWatchdog_s after it was lost, unless it is back
-// by then and has brought a command. Stop does not reach them before it is back. An end stop that is hit
-// holds the joint. If the true robot comes into a singular pose, or one that its legs cannot take, all is
-// over: every call but Stop throws RigError.
+// gone on), and Stop does not reach the drives before it is back: the last command that reached them lapses.
+// An end stop that is hit holds the joint. If the true robot comes into a singular pose, or one that its legs
+// cannot take, all is over: every call but Stop throws RigError.
 class SimulatedRig : public Rig {
  public:
-  static constexpr double kWatchdog_s = 0.1;
-
   // At rest at options.start or the robot's home, time 0, with the first image exposed. Throws
   // std::invalid_argument if the options do not pass Check or the start is outside a joint's range.
   // Without a picture source it has no camera: Grab throws std::logic_error.
@@ -76,16 +74,13 @@ class SimulatedRig : public Rig {
     double time_s = 0;
     Frame frame;
   };
-  struct Event {
-    double time_s = 0;
-    FaultKind kind = FaultKind::kLinkLost;  // readings freeze, or the watchdog of a lost link
-  };
 
   bool IsActive(FaultKind kind) const;
   void DemandAnswer() const;
   void AdvanceTo(double time_s);
   void MoveTo(double time_s);
-  void Fire(FaultKind kind);
+  void Lapse();
+  void Freeze();
   void Expose();
   void Receive();
   Vector6d Measure() const;
@@ -97,9 +92,9 @@ class SimulatedRig : public Rig {
   Rigid3 base_from_platform_;
   ForwardKinematicsStatus kinematics_status_ = ForwardKinematicsStatus::kConverged;
   double now_s_ = 0;
-  double commanded_s_ = 0;     // the last command's time
-  std::vector<Event> events_;  // by time
-  size_t next_event_ = 0;
+  double lapse_s_ = std::numeric_limits<double>::infinity();  // of the command in force
+  std::vector<double> freezes_s_;                             // when readings freeze, in order
+  size_t next_freeze_ = 0;
   std::uint64_t next_exposure_ = 0;
   Vector6d frozen_readings_m_ = Vector6d::Zero();
 

@@ -281,7 +281,7 @@ TEST(ServoStep, RefusesOptionsOutOfRange) {
   options.slow_conditioning = 1;
   EXPECT_THROW(options.Check(), std::invalid_argument);
   options = JointStep();
-  options.limits.look_ahead_s = 0;
+  options.limits.look_ahead_s = 0.99 * Rig::kCommandHolds_s;
   EXPECT_THROW(options.Check(), std::invalid_argument);
   options = JointStep();
   options.limits.speed_limit_m_per_s = -1;

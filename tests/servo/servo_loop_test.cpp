@@ -31,10 +31,12 @@ struct Trial {
   }
 };
 
+constexpr double kSettling_s = Rig::kCommandHolds_s + 1;
+
 struct Outcome {
   ServoRun run;
   int records = 0;
-  TrueMotion end;  // a second later
+  TrueMotion end;  // when nothing coasts any more
   bool hit_end_stop = false, was_too_fast = false;
   double largest_speed_m_per_s = 0;
   Vector6d closest_m = Vector6d::Ones();  // to the ends of the ranges
@@ -61,7 +63,7 @@ Outcome RunOf(const Trial& trial) {
     EXPECT_GE(cycle.look_s, 0);
   });
   try {
-    rig.WaitUntil(rig.true_time_s() + 1);
+    rig.WaitUntil(rig.true_time_s() + kSettling_s);
   } catch (const RigError&) {
   }
   const TrueMotion settled = rig.true_motion();
@@ -191,6 +193,66 @@ TEST(RunServo, KeepsTheRangesThoughReadingsAreFrozenAndDrivesLag) {
       trial.simulation.faults.push_back({FaultKind::kReadingsFrozen, 0.02 * n});
       RunOf(trial);  // looks at the ranges
     }
+  }
+}
+
+// The last command that reached the drives leads them on until it lapses.
+TEST(RunServo, KeepsTheRangesThoughTheLinkIsLostAndDrivesLag) {
+  for (int n = 0; n < 40; ++n) {
+    Trial trial;
+    trial.options.step.law.mode = ControlMode::kJoints;
+    trial.options.step.gain = AdaptiveGain::Constant(8);
+    trial.options.step.limits.speed_limit_m_per_s = 0.1;
+    trial.simulation.drives.lag_s = 0.04;
+    trial.robot.legs[1].joint_range_m[1] = InverseKinematics(trial.robot, trial.robot.home)[1] + 0.02;
+    trial.goal = Displaced(trial.robot.home, 2 * Trial::GoalDisplacement());
+    trial.simulation.faults.push_back({FaultKind::kLinkLost, 0.02 * n + 0.001});
+    RunOf(trial);  // looks at the ranges
+  }
+}
+
+TEST(RunServo, RefusesPeriodsInWhichCommandsMightLapse) {
+  ServoLoopOptions options;
+  EXPECT_NO_THROW(options.Check());
+  options.period_s = ServoLoopOptions::kLongestPeriod_s;
+  EXPECT_NO_THROW(options.Check());
+  for (const double period_s : {0.0, -0.02, 1.01 * ServoLoopOptions::kLongestPeriod_s, 1.0}) {
+    options.period_s = period_s;
+    try {
+      options.Check();
+      ADD_FAILURE() << period_s;
+    } catch (const std::invalid_argument& refusal) {
+      EXPECT_THAT(refusal.what(), HasSubstr("a rig holds a command no longer than 0.25 s"));
+    }
+  }
+}
+
+// The clock goes on with each look, far with the first one.
+class SlowEdges : public EdgeSource {
+ public:
+  explicit SlowEdges(SimulatedRig& rig) : rig_(rig), edges_(rig) {}
+  SeenEdges See(const MotionNow& motion) override {
+    SeenEdges seen = edges_.See(motion);
+    rig_.WaitUntil(rig_.Now() + (looks_++ == 0 ? 0.3 : 0.005));
+    return seen;
+  }
+
+ private:
+  SimulatedRig& rig_;
+  SimulatedEdges edges_;
+  int looks_ = 0;
+};
+
+TEST(RunServo, HoldsAFirstLookThatTakesLongAgainstNobody) {
+  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kPose}) {
+    Trial trial;
+    trial.options.step.law.mode = mode;  // the pose by readings: images are looked at, though not needed
+    const ServoModel model = MakeServoModel(trial.robot, trial.camera, trial.camera_from_base);
+    SimulatedRig rig({trial.robot, trial.camera, trial.camera_from_base}, trial.simulation);
+    SlowEdges source(rig);
+    ServoController controller(model, GoalAtPose(model, trial.goal), trial.options);
+    const ServoRun run = RunServo(rig, source, controller, trial.loop, [](const ServoCycle&) {});
+    EXPECT_EQ(run.end, ServoEnd::kConverged) << run.reason;
   }
 }
 

@@ -1,6 +1,8 @@
 // A desktop hexapod before a camera, as a simulated rig's truth.
 #pragma once
 
+#include <algorithm>
+
 #include "core/rig/simulated_rig.h"
 #include "datasets/synthetic_session.h"
 
@@ -21,6 +23,16 @@ inline SimulationOptions RoughOptions() {
 
 // All joints of a desktop hexapod longer, at the same speed: the platform rises.
 inline Vector6d Rising(double speed_m_per_s) { return Vector6d::Constant(speed_m_per_s); }
+
+// Until then, s of the rig's clock, as a program that is alive does: renewed each 20 ms, and once more then.
+inline void CommandUntil(Rig& rig, const Vector6d& joint_speeds_m_per_s, double until_s) {
+  const double start_s = rig.Now();
+  rig.CommandSpeeds(joint_speeds_m_per_s);
+  for (int i = 1; rig.Now() < until_s; ++i) {
+    rig.WaitUntil(std::min(start_s + 0.02 * i, until_s));
+    rig.CommandSpeeds(joint_speeds_m_per_s);
+  }
+}
 
 inline SimulationOptions WithFault(const Fault& fault) {
   SimulationOptions options;

@@ -25,8 +25,7 @@ struct Taken {
 // After half a second of motion, which is stopped at once.
 Taken TakeAfterMotion(const SimulationOptions& simulation, const RestOptions& options) {
   SimulatedRig rig(DesktopTruth(), simulation, NumberedPicture);
-  rig.CommandSpeeds(Rising(0.04));
-  rig.WaitUntil(0.5);
+  CommandUntil(rig, Rising(0.04), 0.5);
   rig.Stop();
   Taken taken;
   taken.image = TakeImageAtRest(rig, options);
@@ -65,8 +64,12 @@ TEST(ImageAtRest, IsNotTakenWhileAJointMovesAndNamesIt) {
   SimulatedRig rig(DesktopTruth(), simulation, NumberedPicture);
   Vector6d creep = Vector6d::Zero();
   creep[3] = 2e-4;
-  rig.CommandSpeeds(creep);
-  const ImageAtRest none = TakeImageAtRest(rig, {});
+  RestOptions options;
+  options.is_stopped = [&] {  // asked in each period: somebody else keeps it going
+    rig.CommandSpeeds(creep);
+    return false;
+  };
+  const ImageAtRest none = TakeImageAtRest(rig, options);
   EXPECT_THAT(none.missing,
               HasSubstr("leg 4 does not settle: its reading still moves by 0.02 mm within 0.1 s"));
   EXPECT_GE(rig.true_time_s(), RestOptions().timeout_s);

@@ -180,12 +180,11 @@ TEST(SimulatedEdges, HaveTheFaultsOfTheFrames) {
   options.faults = {{FaultKind::kFramesDropped, 0.1, 0.2}, {FaultKind::kFramesFrozen, 0.3, 0.4}};
   SimulatedRig rig(DesktopTruth(), options);
   SimulatedEdges source(rig);
-  rig.CommandSpeeds(Rising(0.02));
-  rig.WaitUntil(0.18);
+  CommandUntil(rig, Rising(0.02), 0.18);
   EXPECT_DOUBLE_EQ(source.See({}).time_s, 0.08);
-  rig.WaitUntil(0.28);
+  CommandUntil(rig, Rising(0.02), 0.28);
   const SeenEdges before = source.See({});
-  rig.WaitUntil(0.36);
+  CommandUntil(rig, Rising(0.02), 0.36);
   EXPECT_DOUBLE_EQ(source.See({}).time_s, 0.36);
   EXPECT_TRUE(AreSame(source.See({}), before));
 
