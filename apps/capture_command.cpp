@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/capture_json.h"
 #include "apps/capture_run.h"
@@ -77,7 +78,11 @@ std::string Summary(const PreparedCapture& prepared, const CaptureRun& run) {
 }  // namespace
 
 int RunCapture(const CaptureSettings& settings, const Console& console) {
-  PreparedCapture prepared = PrepareCapture(settings);
+  return RunCapture(settings, OpenRig(settings.rig), console);
+}
+
+int RunCapture(const CaptureSettings& settings, OpenedRig rig, const Console& console) {
+  PreparedCapture prepared = PrepareCapture(settings, std::move(rig));
   console.err << WarningsText(prepared.warnings);
   CaptureLines lines(console);
   const CaptureListener listener{[&](const std::string& what) { lines.Doing(what); },

@@ -52,8 +52,8 @@ void AddRigOptions(CLI::App& command, CaptureSettings& settings) {
       ->type_name("FILE");
   AddKnownOption(
       command, settings.known,
-      "How well something is known beforehand (1 sigma), for\nsession.yaml; the noise of a simulated "
-      "rig's readings is\nknown unless given. NAME=none: not at all.");
+      "How well something is known beforehand (1 sigma), for\nsession.yaml; the noise of the readings "
+      "by the rig's data\nsheet is known unless given. NAME=none: not at all.");
   AddText(
       command, "--speed-limit", "M/S",
       [&settings](const std::string& text) { settings.speed_limit_m_per_s = ParsePositive(text); },

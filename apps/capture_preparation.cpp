@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/calibrate_settings.h"
 #include "apps/capture_run.h"
@@ -20,44 +20,60 @@ namespace {
 constexpr double kLeastRegularity = 0.05;  // of a pose that a user names, on the way from home
 constexpr double kSamePose_m = 1e-4;
 
-// σ of the readings by the rig's own data sheet: noise, and what quantisation adds.
-std::optional<double> ReadingSigma(const DriveOptions& drives) {
-  const double sigma_m = std::hypot(drives.reading_noise_m, drives.reading_step_m / std::sqrt(12.0));
-  return sigma_m > 0 ? std::optional(std::max(sigma_m, kLeastKnownSigma)) : std::nullopt;
-}
-
 PriorKnowledge KnownOf(const CaptureSettings& settings, const OpenedRig& rig) {
   PriorKnowledge known;
-  known.joint_reading_m = ReadingSigma(rig.truth.options.drives);
+  if (rig.reading_sigma_m) known.joint_reading_m = std::max(*rig.reading_sigma_m, kLeastKnownSigma);
   for (const auto& [name, sigma] : settings.known)
     for (const auto& [known_name, field] : kKnownFields)
       if (known_name == name) known.*field = sigma;
   return known;
 }
 
-// The laboratory's papers: those that were named, else those that the rig names, else the truth.
+InputError NoDrawing(const CaptureSettings& settings, const std::string& what, const std::string& mend) {
+  return InputError(settings.rig, 0, fmt::format("has no drawing of the {}", what), mend);
+}
+
+GoughStewart RobotOnPaper(const CaptureSettings& settings, const OpenedRig& rig) {
+  if (settings.robot) return ReadRobot(*settings.robot);
+  if (rig.drawing_robot) return ReadRobot(*rig.drawing_robot);
+  if (rig.simulation) return rig.simulation->rig->truth().robot;
+  throw NoDrawing(settings, "robot", "name a robot.yaml with --robot");
+}
+
+CameraFile CameraOnPaper(const CaptureSettings& settings, const OpenedRig& rig) {
+  const auto& file = settings.camera ? settings.camera : rig.drawing_camera;
+  if (file) {
+    CameraFile camera = ReadCamera(*file);
+    if (!camera.camera_from_base)
+      throw InputError(*file, 0, "does not say where the camera is",
+                       "add camera_from_base: a tape measure will do");
+    return camera;
+  }
+  if (!rig.simulation) throw NoDrawing(settings, "camera", "name a camera.yaml with --camera");
+  const SimulationTruth& truth = rig.simulation->rig->truth();
+  return {truth.camera, truth.camera_from_base};
+}
+
+// The laboratory's papers: those that were named, else those that the rig names, else a simulated rig's
+// truth.
 Session DescriptionOf(const CaptureSettings& settings, const OpenedRig& rig,
                       std::vector<std::string>& warnings) {
   Session session;
-  const auto& robot = settings.robot ? settings.robot : rig.truth.drawing_robot;
-  const auto& camera = settings.camera ? settings.camera : rig.truth.drawing_camera;
-  const SimulationTruth& truth = rig.truth.truth;
-  session.robot = robot ? ReadRobot(*robot) : truth.robot;
-  const CameraFile placed = camera ? ReadCamera(*camera) : CameraFile{truth.camera, truth.camera_from_base};
-  if (!placed.camera_from_base)
-    throw InputError(*camera, 0, "does not say where the camera is",
-                     "add camera_from_base: a tape measure will do");
-  session.camera = placed.camera;
-  session.camera_from_base = placed.camera_from_base;
+  session.robot = RobotOnPaper(settings, rig);
+  const CameraFile camera = CameraOnPaper(settings, rig);
+  session.camera = camera.camera;
+  session.camera_from_base = camera.camera_from_base;
   session.known = KnownOf(settings, rig);
-  if (!robot || !camera)
+  const bool is_robot_drawn = settings.robot || rig.drawing_robot;
+  const bool is_camera_drawn = settings.camera || rig.drawing_camera;
+  if (!is_robot_drawn || !is_camera_drawn)
     warnings.push_back(
         fmt::format("{} names no drawing of the {}: the session has the true one, and there "
                     "is nothing to find",
-                    rig.truth_file.string(),
-                    robot    ? "camera"
-                    : camera ? "robot"
-                             : "robot and camera"));
+                    rig.simulation->truth_file.string(),
+                    is_robot_drawn    ? "camera"
+                    : is_camera_drawn ? "robot"
+                                      : "robot and camera"));
   return session;
 }
 
@@ -114,13 +130,12 @@ std::unique_ptr<GrowingSession> OpenSession(const CaptureSettings& settings, con
   return session;
 }
 
-void DemandSameImageSize(const Session& session, const CaptureSettings& settings, const Camera& rig) {
-  if (session.camera.width_px == rig.width_px && session.camera.height_px == rig.height_px) return;
-  throw InputError(
-      settings.camera.value_or(settings.rig), 0,
-      fmt::format("the camera on paper has {} x {} px, and the rig's {} x {}", session.camera.width_px,
-                  session.camera.height_px, rig.width_px, rig.height_px),
-      "give the camera.yaml of this rig's camera");
+// The file that says what the session's camera is like, where there is one.
+std::filesystem::path CameraFileName(const CaptureSettings& settings, const OpenedRig& rig,
+                                     const Session& session) {
+  if (settings.camera) return *settings.camera;
+  if (!session.files.empty()) return session.files.at(2);  // of a session that is gone on with
+  return rig.drawing_camera.value_or(settings.rig);
 }
 
 std::string ImageNameOf(const std::filesystem::path& file, const PoseRow& row) {
@@ -164,13 +179,13 @@ NamedPose PoseOf(const std::filesystem::path& file, const PoseRow& row, const Go
 
 }  // namespace
 
-PreparedCapture PrepareCapture(const CaptureSettings& settings) {
+PreparedCapture PrepareCapture(const CaptureSettings& settings, OpenedRig rig) {
   PreparedCapture prepared;
   prepared.settings = settings;
-  prepared.rig = OpenRig(settings.rig);
+  prepared.rig = std::move(rig);
   prepared.session = OpenSession(settings, prepared.rig, prepared.warnings);
   const Session& session = prepared.session->session();
-  DemandSameImageSize(session, settings, prepared.rig.truth.truth.camera);
+  DemandSameImageSize(CameraFileName(settings, prepared.rig, session), session.camera, prepared.rig);
   if (settings.poses)
     for (const PoseRow& row : ReadPoses(*settings.poses))
       prepared.poses.push_back(PoseOf(*settings.poses, row, session.robot));

@@ -27,8 +27,8 @@ struct PreparedCapture {
   std::vector<NamedPose> poses;  // of --poses
   std::vector<std::string> warnings;
 };
-// Throws InputError for a rig, drawing, camera, poses or session that cannot be.
-PreparedCapture PrepareCapture(const CaptureSettings& settings);
+// Throws InputError for a drawing, camera, poses or session that cannot be.
+PreparedCapture PrepareCapture(const CaptureSettings& settings, OpenedRig rig);
 
 struct CaptureTimes {
   double drive_s = 0, image_s = 0, look_s = 0, store_s = 0, outlook_s = 0, propose_s = 0;

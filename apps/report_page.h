@@ -53,7 +53,7 @@ std::string RenderAccuracyPage(const nlohmann::json& data);
 //              edges (how many were seen); look_s, law_s; limits (clauses joined by "; ", "": none);
 //              joint_speeds_m_per_s, joint_readings_m, direction_errors_rad ([6] each); edge_errors_px
 //              ([12]: leg 1 edge 1, leg 1 edge 2, ...; null: not seen); poses (base_from_platform by the
-//              readings), true_poses
+//              readings), true_poses (missing where the rig does not know)
 //   pictures   [{label, time_s, width_px, height_px, image (a data: address), current, desired:
 //              [{leg, edge, points: [[x, y]]}]}]
 // The page draws the deviation of the path from the straight line from the first pose to the goal, or, where

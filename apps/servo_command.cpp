@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/json_text.h"
 #include "apps/output_folder.h"
@@ -89,9 +90,13 @@ Servoed ServoAndWrite(PreparedServo& prepared, ProgressLine& progress) {
 }  // namespace
 
 int RunServoCommand(const ServoSettings& settings, const Console& console) {
+  return RunServoCommand(settings, OpenRig(settings.rig), console);
+}
+
+int RunServoCommand(const ServoSettings& settings, OpenedRig rig, const Console& console) {
   DemandWritable(settings.log, kLogFiles, "--log");
   DemandNothingElseThere(settings.log);
-  PreparedServo prepared = PrepareServo(settings);
+  PreparedServo prepared = PrepareServo(settings, std::move(rig));
   ProgressLine progress(console);
   Servoed servoed;
   try {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/console.h"
+#include "apps/rig_opening.h"
 #include "apps/servo_settings.h"
 
 namespace CLI {
@@ -15,5 +16,7 @@ const CLI::App* AddServoCommand(CLI::App& program, ServoSettings& settings);
 
 // Runs it and returns the exit code. Throws InputError on bad input, having written and moved nothing.
 int RunServoCommand(const ServoSettings& settings, const Console& console);
+// With a rig that is open already.
+int RunServoCommand(const ServoSettings& settings, OpenedRig rig, const Console& console);
 
 }  // namespace legible

@@ -21,6 +21,10 @@ namespace {
 
 constexpr double kFirstLookRange_px = 120;  // a tape measure's camera
 
+std::filesystem::path CameraFileName(const ServoSettings& settings) {
+  return settings.camera.value_or(settings.model);
+}
+
 ServoModel LoadModel(const ServoSettings& settings) {
   CalibratedModel model = ReadModel(settings.model);
   if (settings.camera) {
@@ -28,7 +32,7 @@ ServoModel LoadModel(const ServoSettings& settings) {
     model.camera = camera.camera;
     model.camera_from_base = camera.camera_from_base;
   }
-  const std::filesystem::path& file = settings.camera.value_or(settings.model);
+  const std::filesystem::path file = CameraFileName(settings);
   if (!model.camera)
     throw InputError(file, 0, "has no camera", "calibrate, or name a camera.yaml with --camera");
   if (!model.camera_from_base)
@@ -102,9 +106,11 @@ ServoGoal GoalOf(const ServoSettings& settings, const ServoModel& model) {
   return GoalAtPose(model, base_from_platform);
 }
 
-// Where the true robot is at the goal, in the model's frames, as far as it follows from what was given.
+// Where a simulated robot is at the goal, in the model's frames, as far as it follows from what was given.
 std::optional<Rigid3> TrueGoal(const ServoSettings& settings, const ServoModel& model,
-                               const GoughStewart& truth) {
+                               const std::optional<Simulation>& simulation) {
+  if (!simulation) return std::nullopt;
+  const GoughStewart& truth = simulation->rig->truth().robot;
   if (settings.goal.pose)
     return Rigid3{RotationFromVector(settings.goal.pose->tail<3>()), settings.goal.pose->head<3>()};
   if (!settings.goal.joints_m) return std::nullopt;
@@ -118,7 +124,7 @@ class Recorder {
  public:
   Recorder(const PreparedServo& prepared, const TrackedEdgeSource* images, FinishedServo& finished,
            const std::optional<std::filesystem::path>& frame_folder)
-      : rig_(*prepared.rig.rig),
+      : simulation_(prepared.rig.simulation),
         model_(prepared.setup.model.robot),
         images_(images),
         finished_(finished),
@@ -142,13 +148,15 @@ class Recorder {
     finished_.pictures.push_back(std::move(picture));
   }
 
-  // In the model's frames.
-  Rigid3 TruePose() const {
-    return InFramesOf(model_, rig_.truth().robot, rig_.true_motion().base_from_platform);
+  // Of a simulated robot, in the model's frames.
+  std::optional<Rigid3> TruePose() const {
+    if (!simulation_) return std::nullopt;
+    const SimulatedRig& rig = *simulation_->rig;
+    return InFramesOf(model_, rig.truth().robot, rig.true_motion().base_from_platform);
   }
 
  private:
-  const SimulatedRig& rig_;
+  const std::optional<Simulation>& simulation_;
   const GoughStewart& model_;
   const TrackedEdgeSource* images_;
   FinishedServo& finished_;
@@ -188,9 +196,8 @@ class LiveLine {
 };
 
 // Whatever goes wrong, the log has what there was: the rig is at rest then.
-ServoRun RunToItsEnd(SimulatedRig& rig, EdgeSource& source, ServoController& controller,
-                     const ServoLoopOptions& loop, const std::function<void(const ServoCycle&)>& record,
-                     const ServoLog& log) {
+ServoRun RunToItsEnd(Rig& rig, EdgeSource& source, ServoController& controller, const ServoLoopOptions& loop,
+                     const std::function<void(const ServoCycle&)>& record, const ServoLog& log) {
   try {
     return RunServo(rig, source, controller, loop, record);
   } catch (const std::exception& error) {
@@ -204,8 +211,9 @@ ServoRun RunToItsEnd(SimulatedRig& rig, EdgeSource& source, ServoController& con
   }
 }
 
+// Without a link a command lapses first.
 void WaitForRest(Rig& rig) {
-  constexpr double kRest_s = 0.3;
+  constexpr double kRest_s = Rig::kCommandHolds_s + 0.3;
   try {
     rig.WaitUntil(rig.Now() + kRest_s);
   } catch (const RigError&) {  // said already, or of no more interest
@@ -234,23 +242,22 @@ void DemandShortPeriod(const ServoSettings& settings) {
     throw std::invalid_argument("the gain times the period must stay below 1");
 }
 
-void DemandSameImageSize(const ServoSettings& settings, const Camera& model, const Camera& rig) {
-  if (model.width_px == rig.width_px && model.height_px == rig.height_px) return;
-  throw InputError(settings.model, 0,
-                   fmt::format("has a camera of {} x {} px, and the rig one of {} x {}", model.width_px,
-                               model.height_px, rig.width_px, rig.height_px),
-                   "give the model of this rig");
+void DemandEdgeSource(const ServoSettings& settings, const OpenedRig& rig) {
+  if (settings.is_image_free && !rig.simulation)
+    throw InputError(settings.rig, 0, "is no simulated rig: it has no edges but those of its images",
+                     "leave --image-free out");
 }
 
 }  // namespace
 
-PreparedServo PrepareServo(const ServoSettings& settings) {
+PreparedServo PrepareServo(const ServoSettings& settings, OpenedRig rig) {
   PreparedServo prepared;
   prepared.settings = settings;
+  prepared.rig = std::move(rig);
   ServoSetup& setup = prepared.setup;
   setup.model = LoadModel(settings);
-  prepared.rig = OpenRig(settings.rig);
-  DemandSameImageSize(settings, setup.model.camera, prepared.rig.truth.truth.camera);
+  DemandEdgeSource(settings, prepared.rig);
+  DemandSameImageSize(CameraFileName(settings), setup.model.camera, prepared.rig);
   setup.goal = GoalOf(settings, setup.model);
   setup.options = settings.options;
   setup.period_s = settings.period_s;
@@ -259,7 +266,7 @@ PreparedServo PrepareServo(const ServoSettings& settings) {
                       {"edges_from", settings.is_image_free ? "simulation without images" : "images"},
                       {"goal", GoalText(settings.goal)},
                       {"program_version", ProgramVersion()}};
-  prepared.true_goal = TrueGoal(settings, setup.model, prepared.rig.truth.truth.robot);
+  prepared.true_goal = TrueGoal(settings, setup.model, prepared.rig.simulation);
   try {
     DemandGoal(setup.goal, setup.options.step.law);
     setup.options.Check();
@@ -276,11 +283,11 @@ FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::files
   FinishedServo finished;
   finished.log.setup = prepared.setup;
   const ServoModel& model = prepared.setup.model;
-  SimulatedRig& rig = *prepared.rig.rig;
+  Rig& rig = *prepared.rig.rig;
   std::optional<TrackedEdgeSource> images;
   std::optional<SimulatedEdges> lines;
   if (prepared.settings.is_image_free)
-    lines.emplace(rig, model.camera);
+    lines.emplace(*prepared.rig.simulation->rig, model.camera);
   else
     images.emplace(rig, model.robot, model.camera, model.camera_from_base, TrackerOptions());
   EdgeSource& source = images ? static_cast<EdgeSource&>(*images) : *lines;
@@ -298,7 +305,7 @@ FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::files
   finished.run = RunToItsEnd(rig, source, controller, loop, record, finished.log);
   recorder.Keep("end");
   if (images && images->newest()) finished.missing = images->newest()->missing;
-  WaitForRest(rig);
+  if (prepared.rig.simulation) WaitForRest(rig);
   finished.true_end = recorder.TruePose();
   return finished;
 }

@@ -27,17 +27,18 @@ struct PreparedServo {
   ServoSettings settings;
   OpenedRig rig;
   ServoSetup setup;
-  std::optional<Rigid3> true_goal;  // base_from_platform of the true robot, in the model's frames
+  // base_from_platform of the true robot, in the model's frames; of a simulated rig.
+  std::optional<Rigid3> true_goal;
   std::vector<std::string> warnings;
 };
 // Throws InputError for a model without camera, a goal out of the joint ranges or not to be seen, …
-PreparedServo PrepareServo(const ServoSettings& settings);
+PreparedServo PrepareServo(const ServoSettings& settings, OpenedRig rig);
 
 struct FinishedServo {
   ServoRun run;
   ServoLog log;
   std::vector<RunPicture> pictures;  // of the first and the last cycle
-  std::optional<Rigid3> true_end;    // at rest, in the model's frames
+  std::optional<Rigid3> true_end;    // at rest, in the model's frames; of a simulated rig
   // Why edges that the last image does not show are missing: [leg][edge]; empty: they are not.
   std::array<std::array<std::string, 2>, kLegCount> missing;
 };

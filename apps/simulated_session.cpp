@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -149,9 +150,8 @@ SimulatedSession DrawSession(const SimulateSettings& settings) {
     ReadRig(settings, session);
   else
     DrawRig(settings, session);
-  const DriveOptions& drives = session.truth.options.drives;
-  const double sigma_m = std::hypot(drives.reading_noise_m, drives.reading_step_m / std::sqrt(12.0));
-  if (sigma_m > 0) session.paper.known.joint_reading_m = sigma_m;
+  if (const auto sigma_m = ReadingSigma(session.truth.options.drives))
+    session.paper.known.joint_reading_m = std::max(*sigma_m, kLeastKnownSigma);
   for (const auto& [name, sigma] : settings.known)
     for (const auto& [known_name, field] : kKnownFields)
       if (known_name == name) session.paper.known.*field = sigma;

@@ -1,5 +1,6 @@
 #include "core/rig/simulation_options.h"
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -29,6 +30,11 @@ void CheckFault(const Fault& fault, const std::string& prefix) {
 }
 
 }  // namespace
+
+std::optional<double> ReadingSigma(const DriveOptions& drives) {
+  const double sigma_m = std::hypot(drives.reading_noise_m, drives.reading_step_m / std::sqrt(12.0));
+  return sigma_m > 0 ? std::optional(sigma_m) : std::nullopt;
+}
 
 void SimulationOptions::Check() const {
   CheckNumbers(*this, kSimulationFields, "");

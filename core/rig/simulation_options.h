@@ -29,6 +29,10 @@ struct DriveOptions {
   double reading_noise_m = 0;       // 1 sigma, before quantisation
 };
 
+// σ of a joint reading (m) as a data sheet would state it: noise, and what quantisation adds. Nothing where
+// the readings are exact.
+std::optional<double> ReadingSigma(const DriveOptions& drives);
+
 // Light, surfaces and sensor of the simulated camera.
 struct SceneOptions {
   double blur_px = 0.8;   // standard deviation of the lens's Gaussian; the pixels' own extent is added

@@ -44,7 +44,7 @@ TEST_F(CaptureRefuses, AFolderThatHoldsSomethingElse) {
 TEST_F(CaptureRefuses, ACameraOfAnotherSizeOrWithoutItsPlace) {
   WriteCamera(rig() / "other.yaml", DesktopCamera(false), Rigid3());
   ExpectRefusal(Capture({"--camera", rig() / "other.yaml"}),
-                HasSubstr("other.yaml: the camera on paper has 1280 x 960 px, and the rig's 64 x 48"));
+                HasSubstr("other.yaml: has a camera of 1280 x 960 px, and the rig one of 64 x 48"));
   WriteCamera(rig() / "other.yaml", ReadCamera(rig() / "camera.yaml").camera);
   ExpectRefusal(Capture({"--camera", rig() / "other.yaml"}),
                 HasSubstr("other.yaml: does not say where the camera is"));
