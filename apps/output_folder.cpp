@@ -44,6 +44,14 @@ class Staging {
   fs::path path_;
 };
 
+void MoveResults(const fs::path& from, const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const bool is_written = fs::exists(from / name);
+    if (!is_written || fs::is_directory(folder / name)) fs::remove_all(folder / name);
+    if (is_written) fs::rename(from / name, folder / name);
+  }
+}
+
 template <typename Action>
 void OrInputError(const fs::path& folder, const std::string& option, Action action) {
   try {
@@ -71,11 +79,27 @@ void WriteTogether(const fs::path& folder, const std::vector<std::string>& names
     RemoveAbandonedStaging(folder);
     const Staging staging(folder);
     write(staging.path());
-    for (const std::string& name : names) {
-      const bool is_written = fs::exists(staging.path() / name);
-      if (!is_written || fs::is_directory(folder / name)) fs::remove_all(folder / name);
-      if (is_written) fs::rename(staging.path() / name, folder / name);
+    MoveResults(staging.path(), folder, names);
+  });
+}
+
+fs::path MakeNumberedFolder(const fs::path& folder, const std::string& prefix) {
+  fs::path made;
+  OrInputError(folder, "enough room", [&] {
+    fs::create_directories(folder);
+    for (int number = 1; made.empty(); ++number) {
+      const fs::path wanted = folder / (prefix + std::to_string(number));
+      if (!fs::exists(wanted) && fs::create_directory(wanted)) made = wanted;
     }
+  });
+  return made;
+}
+
+void MoveTogether(const fs::path& from, const fs::path& folder, const std::vector<std::string>& names) {
+  OrInputError(folder, "enough room", [&] {
+    RemoveAbandonedStaging(folder);
+    MoveResults(from, folder, names);
+    fs::remove_all(from);
   });
 }
 

@@ -20,4 +20,13 @@ void DemandWritable(const std::filesystem::path& folder, const std::vector<std::
 void WriteTogether(const std::filesystem::path& folder, const std::vector<std::string>& names,
                    const std::function<void(const std::filesystem::path&)>& write);
 
+// Makes FOLDER/PREFIXN, N the first number from 1 that is free there, for results that grow: they stay if the
+// program is killed. Throws InputError if it cannot.
+std::filesystem::path MakeNumberedFolder(const std::filesystem::path& folder, const std::string& prefix);
+
+// Moves such results into `folder` once they are whole, as WriteTogether does, and removes theirs. Throws
+// InputError if that fails.
+void MoveTogether(const std::filesystem::path& from, const std::filesystem::path& folder,
+                  const std::vector<std::string>& names);
+
 }  // namespace legible

@@ -10,6 +10,7 @@
 #include "apps/program.h"
 #include "apps/servo_log.h"
 #include "apps/wording.h"
+#include "datasets/input_error.h"
 
 namespace legible {
 namespace {
@@ -18,7 +19,8 @@ constexpr char kDescription[] = "Run the law of a servo's log again, and compare
 constexpr char kFooter[] =
     R"(LOG is the folder that `legible servo` wrote. The law gets what came in then, cycle by cycle, and must command
 the same speeds, bit for bit, and end the same way, for the same reason; an end that came from outside (the user,
-a lost link) is not its own.
+a lost link) is not its own. Of a servo that was killed the log is in LOG/unfinished-1: its cycles are run again as
+far as they were written.
 
 Exit codes:
   0  it does
@@ -31,6 +33,7 @@ struct Comparison {
   double largest_difference_m_per_s = 0;
   Verdict end;  // the law's own
   std::string recorded_end, recorded_reason;
+  bool is_cut_off = false, is_torn = false;  // the log
   bool ends_alike = true;
 
   bool IsSame() const { return different == 0 && ends_alike; }
@@ -59,6 +62,9 @@ Comparison Replay(const RecordedServo& recorded) {
   }
   comparison.recorded_end = recorded.end;
   comparison.recorded_reason = recorded.reason;
+  comparison.is_cut_off = recorded.is_cut_off;
+  comparison.is_torn = recorded.is_torn;
+  if (recorded.is_cut_off) return comparison;
   const bool is_own = comparison.end.end != ServoEnd::kRunning;
   comparison.ends_alike =
       is_own ? ToString(comparison.end.end) == recorded.end && comparison.end.reason == recorded.reason
@@ -68,16 +74,18 @@ Comparison Replay(const RecordedServo& recorded) {
 
 nlohmann::ordered_json ComparisonJson(const Comparison& comparison) {
   using nlohmann::ordered_json;
-  return {{"cycles", comparison.cycles},
-          {"different", comparison.different},
-          {"first_different",
-           comparison.first_different ? ordered_json(*comparison.first_different) : ordered_json()},
-          {"largest_difference_m_per_s", comparison.largest_difference_m_per_s},
-          {"status", ToString(comparison.end.end)},
-          {"reason", comparison.end.reason},
-          {"recorded_status", comparison.recorded_end},
-          {"recorded_reason", comparison.recorded_reason},
-          {"ends_alike", comparison.ends_alike}};
+  return {
+      {"cycles", comparison.cycles},
+      {"different", comparison.different},
+      {"first_different",
+       comparison.first_different ? ordered_json(*comparison.first_different) : ordered_json()},
+      {"largest_difference_m_per_s", comparison.largest_difference_m_per_s},
+      {"status", ToString(comparison.end.end)},
+      {"reason", comparison.end.reason},
+      {"cut_off", comparison.is_cut_off},
+      {"recorded_status", comparison.is_cut_off ? ordered_json() : ordered_json(comparison.recorded_end)},
+      {"recorded_reason", comparison.is_cut_off ? ordered_json() : ordered_json(comparison.recorded_reason)},
+      {"ends_alike", comparison.ends_alike}};
 }
 
 std::string ComparisonText(const Comparison& comparison) {
@@ -88,11 +96,24 @@ std::string ComparisonText(const Comparison& comparison) {
           : fmt::format("{} of {} differ, the first in cycle {}, by {:.3g} m/s at most\n",
                         comparison.different, Plural(comparison.cycles, "cycle"), *comparison.first_different,
                         comparison.largest_difference_m_per_s);
+  if (comparison.is_cut_off)
+    return text + fmt::format("cut off: no result.json; {} replayed{}\n",
+                              comparison.cycles == 1 ? "1 cycle was"
+                                                     : fmt::format("{} cycles were", comparison.cycles),
+                              comparison.is_torn ? ", what was half written was left out" : "");
   if (!comparison.ends_alike)
     return text + fmt::format("ends otherwise: {}: {}\n  the log: {}\n", ToString(comparison.end.end),
                               comparison.end.reason, recorded);
   const bool is_own = comparison.end.end != ServoEnd::kRunning;
   return text + fmt::format("{}{}\n", is_own ? "" : "ended from outside: ", recorded);
+}
+
+// Whoever was killed before any servo here came to its end is told where the log is.
+void DemandWholeLog(const std::filesystem::path& folder) {
+  const auto unfinished = UnfinishedLogs(folder);
+  if (unfinished.empty() || std::filesystem::exists(folder / "setup.json")) return;
+  throw InputError(folder, 0, "holds no log of a servo that came to its end",
+                   fmt::format("replay {}, which was cut off", unfinished.back().string()));
 }
 
 }  // namespace
@@ -107,6 +128,7 @@ const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
 }
 
 int RunReplay(const ReplaySettings& settings, const Console& console) {
+  DemandWholeLog(settings.log);
   const Comparison comparison = Replay(ReadServoLog(settings.log));
   console.out << (settings.prints_json ? JsonText(ComparisonJson(comparison)) : ComparisonText(comparison));
   if (comparison.IsSame()) return kExitSuccess;

@@ -21,15 +21,18 @@ namespace {
 
 const std::vector<std::string> kLogFiles = {"result.json", "setup.json", "cycles.csv", "edges.csv",
                                             "report.html"};
-constexpr char kFrames[] = "frames";
+
+std::vector<std::string> AllOfALog() {
+  std::vector<std::string> names = kLogFiles;
+  names.emplace_back(kFrameFolder);
+  return names;
+}
 
 // An earlier log is replaced with its frames; a folder that holds something else of these names is left
 // alone.
 void DemandNothingElseThere(const std::filesystem::path& folder) {
   if (IsServoLog(folder)) return;
-  std::vector<std::string> names = kLogFiles;
-  names.emplace_back(kFrames);
-  for (const std::string& name : names)
+  for (const std::string& name : AllOfALog())
     if (std::filesystem::exists(folder / name))
       throw InputError(folder / name, 0, "is there already, and no servo's log with it",
                        "name another folder with --log");
@@ -60,30 +63,27 @@ std::string Summary(const ServoSettings& settings, const FinishedServo& finished
       "result.json, setup.json, cycles.csv, edges.csv and report.html", settings.log.string());
 }
 
-// Drives and writes; all files come together at the end.
+std::string UnfinishedText(const std::filesystem::path& folder) {
+  return fmt::format(
+      "{} holds the log of a servo that has not come to its end: look at it with `legible "
+      "replay`, then remove it",
+      folder.string());
+}
+
+// Drives and writes; the log grows in a folder of its own, and replaces an earlier one when all is there.
 struct Servoed {
   FinishedServo finished;
   nlohmann::ordered_json document;
 };
-Servoed ServoAndWrite(PreparedServo& prepared, ProgressLine& progress) {
-  const ServoSettings& settings = prepared.settings;
-  std::vector<std::string> names = kLogFiles;
-  names.emplace_back(kFrames);
+Servoed ServoAndWrite(PreparedServo& prepared, const std::filesystem::path& folder, ProgressLine& progress) {
   Servoed servoed;
   const Interruption interruption;  // a second one must not keep the log from being written
-  WriteTogether(settings.log, names, [&](const std::filesystem::path& folder) {
-    std::optional<std::filesystem::path> frames;
-    if (settings.keeps_images) {
-      frames = folder / kFrames;
-      std::filesystem::create_directory(*frames);
-    }
-    servoed.finished = DriveServo(prepared, frames, interruption, progress);
-    servoed.document = ServoJson(prepared, servoed.finished);
-    WriteServoLog(folder, servoed.finished.log);
-    WriteFileAtomically(folder / "result.json", JsonText(servoed.document));
-    WriteFileAtomically(folder / "report.html",
-                        RenderServoPage(ServoReportData(prepared, servoed.finished, servoed.document)));
-  });
+  servoed.finished = DriveServo(prepared, folder, interruption, progress);
+  servoed.document = ServoJson(prepared, servoed.finished);
+  WriteFileAtomically(folder / "report.html",
+                      RenderServoPage(ServoReportData(prepared, servoed.finished, servoed.document)));
+  WriteFileAtomically(folder / "result.json", JsonText(servoed.document));
+  MoveTogether(folder, prepared.settings.log, AllOfALog());
   return servoed;
 }
 
@@ -97,13 +97,17 @@ int RunServoCommand(const ServoSettings& settings, OpenedRig rig, const Console&
   DemandWritable(settings.log, kLogFiles, "--log");
   DemandNothingElseThere(settings.log);
   PreparedServo prepared = PrepareServo(settings, std::move(rig));
+  for (const std::filesystem::path& unfinished : UnfinishedLogs(settings.log))
+    prepared.warnings.push_back(UnfinishedText(unfinished));
+  const std::filesystem::path folder = MakeNumberedFolder(settings.log, kUnfinishedLog);
   ProgressLine progress(console);
   Servoed servoed;
   try {
-    servoed = ServoAndWrite(prepared, progress);
+    servoed = ServoAndWrite(prepared, folder, progress);
   } catch (const InputError& error) {  // what was driven is no bad input any more
     progress.Clear();
-    console.err << "legible: the robot was driven, but its log cannot be written: " << error.what() << "\n";
+    console.err << fmt::format("legible: the log cannot be written; what there is of it is in {}: {}\n",
+                               folder.string(), error.what());
     return kExitNoResult;
   }
   progress.Clear();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/json_text.h"
 #include "apps/servo_setup_json.h"
@@ -114,49 +115,28 @@ CsvRowWriter EdgeRow(size_t number, const SeenEdge& edge) {
   return row;
 }
 
-// A table: comments, the header, rows.
-class CsvText {
- public:
-  CsvText(const std::string& comments, const CsvRowWriter& any_row)
-      : text_(comments + any_row.header() + "\n") {}
-  void Add(const CsvRowWriter& row) { text_ += row.row() + "\n"; }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-std::string CyclesText(const ServoLog& log) {
-  const ControlLawOptions& law = log.setup.options.step.law;
-  CsvText table(
-      fmt::format(
-          "# legible servo, schema {}: one row a cycle. Units by the columns' names; `error` and `tolerance` "
-          "in "
-          "{}.\n"
-          "# time_s: of the command, by the rig's clock; q: joint readings; v: commanded joint speeds;\n"
-          "# x .. rz: base_from_platform by the readings, rotation vector; true_: as a simulated rig knows "
-          "it, in the\n"
-          "# model's frames;\n"
-          "# smallest_singular_value: of the interaction matrix as the law weighs it, 1/m;\n"
-          "# look_s, law_s: computing times; reason: why it ended or waits.\n",
-          kServoLogSchema, UnitOf(law.mode)),
-      CycleRow(0, {}, law));
-  for (size_t i = 0; i < log.cycles.size(); ++i) table.Add(CycleRow(i, log.cycles[i], law));
-  return table.text();
+std::string CyclesHead(const ControlLawOptions& law) {
+  return fmt::format(
+             "# legible servo, schema {}: one row a cycle. Units by the columns' names; `error` and "
+             "`tolerance` in {}.\n"
+             "# time_s: of the command, by the rig's clock; q: joint readings; v: commanded joint speeds;\n"
+             "# x .. rz: base_from_platform by the readings, rotation vector; true_: as a simulated rig\n"
+             "# knows it, in the model's frames;\n"
+             "# smallest_singular_value: of the interaction matrix as the law weighs it, 1/m;\n"
+             "# look_s, law_s: computing times; reason: why it ended or waits.\n",
+             kServoLogSchema, UnitOf(law.mode)) +
+         CycleRow(0, {}, law).header() + "\n";
 }
 
-std::string EdgesText(const ServoLog& log) {
-  CsvText table(
-      fmt::format("# legible servo, schema {}: one row for each edge seen in a cycle. n: outline normal in "
-                  "the camera frame,\n"
-                  "# unit, away from the leg; c: its covariance; begin, end: the stretch seen, normalised "
-                  "image coordinates\n"
-                  "# without distortion. Legs and edges count from 1.\n",
-                  kServoLogSchema),
-      EdgeRow(0, {}));
-  for (size_t i = 0; i < log.cycles.size(); ++i)
-    for (const SeenEdge& edge : log.cycles[i].cycle.input.seen.edges) table.Add(EdgeRow(i, edge));
-  return table.text();
+std::string EdgesHead() {
+  return fmt::format(
+             "# legible servo, schema {}: one row for each edge seen in a cycle. n: outline normal in "
+             "the camera frame,\n"
+             "# unit, away from the leg; c: its covariance; begin, end: the stretch seen, normalised "
+             "image coordinates\n"
+             "# without distortion. Legs and edges count from 1.\n",
+             kServoLogSchema) +
+         EdgeRow(0, {}).header() + "\n";
 }
 
 // ---- Reading
@@ -180,7 +160,16 @@ std::vector<std::string> Columns(const std::string& header) {
   return {rows[0].fields.begin(), rows[0].fields.end()};
 }
 
-std::vector<RecordedCycle> ReadCycles(const std::filesystem::path& file) {
+// The text of a table; of a log that is cut off, without a last line that was half written.
+std::string ReadTable(const std::filesystem::path& file, RecordedServo& recorded) {
+  std::string text = ReadTextFile(file);
+  if (!recorded.is_cut_off || text.empty() || text.back() == '\n') return text;
+  recorded.is_torn = true;
+  text.resize(text.rfind('\n') + 1);  // to nothing, where there is no line at all
+  return text;
+}
+
+void ReadCycles(const std::filesystem::path& file, RecordedServo& recorded) {
   CsvColumns columns;
   columns.required = {"cycle", "time_s", "readings_time_s", "image_time_s", "status"};
   for (const auto& names : {ByLegNames("q", "m"), ByLegNames("v", "m_per_s")})
@@ -188,8 +177,8 @@ std::vector<RecordedCycle> ReadCycles(const std::filesystem::path& file) {
   for (const std::string& name : Columns(CycleRow(0, {}, {}).header()))
     if (std::find(columns.required.begin(), columns.required.end(), name) == columns.required.end())
       columns.optional.push_back(name);
-  const std::string text = ReadTextFile(file);
-  std::vector<RecordedCycle> cycles;
+  const std::string text = ReadTable(file, recorded);
+  std::vector<RecordedCycle>& cycles = recorded.cycles;
   for (const CsvRow& row : ArrangeCsv(file, SplitCsv(text), columns)) {
     if (NumberOf(file, row, 0) != static_cast<double>(cycles.size()))
       throw InputError(file, row.line, fmt::format("cycle {} is missing", cycles.size()), kMend);
@@ -202,21 +191,24 @@ std::vector<RecordedCycle> ReadCycles(const std::filesystem::path& file) {
     Fill(file, row, 5 + kLegCount, cycle.joint_speeds_m_per_s);
     cycles.push_back(cycle);
   }
-  return cycles;
 }
 
 bool IsCount(double number, double lowest, double highest) {
   return number >= lowest && number <= highest && number == std::floor(number);
 }
 
-void ReadEdges(const std::filesystem::path& file, std::vector<RecordedCycle>& cycles) {
-  const std::string text = ReadTextFile(file);
+void ReadEdges(const std::filesystem::path& file, RecordedServo& recorded) {
+  const std::string text = ReadTable(file, recorded);
   const std::vector<CsvRow> rows = SplitCsv(text);
   if (rows.empty()) return;  // no edge was seen
+  const auto cycles = static_cast<double>(recorded.cycles.size());
   for (const CsvRow& row : ArrangeCsv(file, rows, {Columns(EdgeRow(0, {}).header()), {}})) {
     const double number = NumberOf(file, row, 0), leg = NumberOf(file, row, 1), edge = NumberOf(file, row, 2);
-    const bool is_known = IsCount(number, 0, static_cast<double>(cycles.size()) - 1) &&
-                          IsCount(leg, 1, kLegCount) && IsCount(edge, 1, 2);
+    if (recorded.is_cut_off && number == cycles) {  // edges are written before their cycle
+      recorded.is_torn = true;
+      continue;
+    }
+    const bool is_known = IsCount(number, 0, cycles - 1) && IsCount(leg, 1, kLegCount) && IsCount(edge, 1, 2);
     if (!is_known) throw InputError(file, row.line, "names a cycle, leg or edge that is not there", kMend);
     SeenEdge seen;
     seen.leg = static_cast<int>(leg) - 1;
@@ -225,7 +217,7 @@ void ReadEdges(const std::filesystem::path& file, std::vector<RecordedCycle>& cy
     Fill(file, row, 6, seen.normal_covariance);
     Fill(file, row, 15, seen.ends[0]);
     Fill(file, row, 17, seen.ends[1]);
-    cycles[static_cast<size_t>(number)].input.seen.edges.push_back(seen);
+    recorded.cycles[static_cast<size_t>(number)].input.seen.edges.push_back(seen);
   }
 }
 
@@ -259,10 +251,39 @@ void ReadResult(const std::filesystem::path& file, RecordedServo& recorded) {
 
 }  // namespace
 
-void WriteServoLog(const std::filesystem::path& folder, const ServoLog& log) {
-  WriteFileAtomically(folder / "setup.json", JsonText(SetupToJson(log.setup)));
-  WriteFileAtomically(folder / "cycles.csv", CyclesText(log));
-  WriteFileAtomically(folder / "edges.csv", EdgesText(log));
+void ServoLogWriter::GrowingFile::Append(const std::string& text) {
+  stream << text << std::flush;
+  if (!stream) throw InputError(path, 0, "cannot be written", "see that there is room");
+}
+
+ServoLogWriter::ServoLogWriter(const std::filesystem::path& folder, const ServoSetup& setup)
+    : law_(setup.options.step.law),
+      cycles_{folder / "cycles.csv", std::ofstream(folder / "cycles.csv", std::ios::binary)},
+      edges_{folder / "edges.csv", std::ofstream(folder / "edges.csv", std::ios::binary)} {
+  cycles_.Append(CyclesHead(law_));
+  edges_.Append(EdgesHead());
+  WriteFileAtomically(folder / "setup.json", JsonText(SetupToJson(setup)));
+}
+
+// The edges first: a cycle that is there has all of its own.
+void ServoLogWriter::Add(const LoggedCycle& logged) {
+  std::string edges;
+  for (const SeenEdge& edge : logged.cycle.input.seen.edges) edges += EdgeRow(count_, edge).row() + "\n";
+  edges_.Append(edges);
+  cycles_.Append(CycleRow(count_, logged, law_).row() + "\n");
+  ++count_;
+}
+
+std::vector<std::filesystem::path> UnfinishedLogs(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> logs;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with(kUnfinishedLog) && IsServoLog(entry.path()))
+      logs.push_back(entry.path());
+  std::sort(logs.begin(), logs.end(), [](const auto& a, const auto& b) {  // 10 after 9
+    return std::pair(a.native().size(), a) < std::pair(b.native().size(), b);
+  });
+  return logs;
 }
 
 bool IsServoLog(const std::filesystem::path& folder) {
@@ -275,9 +296,12 @@ bool IsServoLog(const std::filesystem::path& folder) {
 }
 
 RecordedServo ReadServoLog(const std::filesystem::path& folder) {
-  RecordedServo recorded{ReadSetup(folder / "setup.json"), ReadCycles(folder / "cycles.csv"), "", ""};
-  ReadEdges(folder / "edges.csv", recorded.cycles);
-  ReadResult(folder / "result.json", recorded);
+  RecordedServo recorded;
+  recorded.setup = ReadSetup(folder / "setup.json");
+  recorded.is_cut_off = !std::filesystem::exists(folder / "result.json");
+  ReadCycles(folder / "cycles.csv", recorded);
+  ReadEdges(folder / "edges.csv", recorded);
+  if (!recorded.is_cut_off) ReadResult(folder / "result.json", recorded);
   return recorded;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,11 +30,32 @@ struct ServoLog {
   std::vector<LoggedCycle> cycles;
 };
 
-// Whether the folder holds what WriteServoLog writes.
+// Writes setup.json, cycles.csv and edges.csv as the servo runs: what was added stays, however the program
+// ends. Numbers read back as the same bits.
+class ServoLogWriter {
+ public:
+  // Into a folder that is there. Throws InputError where something cannot be written, and so does Add.
+  ServoLogWriter(const std::filesystem::path& folder, const ServoSetup& setup);
+  void Add(const LoggedCycle& logged);
+
+ private:
+  struct GrowingFile {
+    std::filesystem::path path;
+    std::ofstream stream;
+    void Append(const std::string& text);
+  };
+  ControlLawOptions law_;
+  GrowingFile cycles_, edges_;
+  size_t count_ = 0;
+};
+
+// Whether the folder holds what ServoLogWriter writes.
 bool IsServoLog(const std::filesystem::path& folder);
 
-// setup.json, cycles.csv and edges.csv. Numbers read back as the same bits.
-void WriteServoLog(const std::filesystem::path& folder, const ServoLog& log);
+// The log of a servo grows in a folder unfinished-N in the log's folder, and is moved from there when it is
+// whole. Those that a killed program has left, or that still grow, in order.
+inline constexpr char kUnfinishedLog[] = "unfinished-";
+std::vector<std::filesystem::path> UnfinishedLogs(const std::filesystem::path& folder);
 
 // What a log says of a cycle: its input and the commands that followed.
 struct RecordedCycle {
@@ -45,8 +67,11 @@ struct RecordedServo {
   ServoSetup setup;
   std::vector<RecordedCycle> cycles;
   std::string end, reason;  // by result.json
+  // There is no result.json: the program was killed, or still runs. The cycles are those that were written.
+  bool is_cut_off = false;
+  bool is_torn = false;  // of a log that is cut off: what was half written is left out
 };
-// Reads result.json too. Throws InputError for what is no log, a damaged one, or one that is cut off.
+// Throws InputError for what is no log, or a damaged one.
 RecordedServo ReadServoLog(const std::filesystem::path& folder);
 
 }  // namespace legible

@@ -20,13 +20,15 @@ has to be known. The robot stops, and says why, when it has arrived and when it 
 or no longer falls, too few edges are seen, a singularity or the end of a joint's range is near, images or
 readings are missing, old or frozen, the link is lost, the time is up, or ctrl-C.
 
-Written to the folder of --log, all together at the end:
+Written to the folder of --log:
   result.json  status, reason, errors, times
   setup.json   model, goal and options
   cycles.csv   each cycle: readings, errors, commands, limits
   edges.csv    each edge of each cycle
   frames/      each image, with --keep-images
   report.html  all that to look at
+The log grows in a folder unfinished-1 in there, and takes the place of an earlier one at the end. If the program
+is killed it stays as it is, and `legible replay` reads it.
 
 Exit codes:
   0  converged

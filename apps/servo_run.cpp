@@ -119,20 +119,25 @@ std::optional<Rigid3> TrueGoal(const ServoSettings& settings, const ServoModel& 
   return InFramesOf(model.robot, truth, found.base_from_platform);
 }
 
-// Keeps what a report shows of the run.
+// Writes the log, and keeps what a report shows of the run.
 class Recorder {
  public:
   Recorder(const PreparedServo& prepared, const TrackedEdgeSource* images, FinishedServo& finished,
-           const std::optional<std::filesystem::path>& frame_folder)
+           const std::filesystem::path& folder)
       : simulation_(prepared.rig.simulation),
         model_(prepared.setup.model.robot),
         images_(images),
         finished_(finished),
-        frame_folder_(frame_folder) {}
+        writer_(folder, prepared.setup) {
+    if (!images || !prepared.settings.keeps_images) return;
+    frame_folder_ = folder / kFrameFolder;
+    std::filesystem::create_directory(*frame_folder_);
+  }
 
   void Take(ServoCycle cycle) {
     if (images_) cycle.look_s = images_->track_s();  // without the time that the picture took to come
     finished_.log.cycles.push_back({cycle, TruePose()});
+    writer_.Add(finished_.log.cycles.back());
     if (finished_.log.cycles.size() == 1) Keep("start");
     if (images_ && frame_folder_ && images_->image().time_s != last_frame_s_) {
       last_frame_s_ = images_->image().time_s;
@@ -160,6 +165,7 @@ class Recorder {
   const GoughStewart& model_;
   const TrackedEdgeSource* images_;
   FinishedServo& finished_;
+  ServoLogWriter writer_;
   std::optional<std::filesystem::path> frame_folder_;
   double last_frame_s_ = -1;
 };
@@ -278,7 +284,7 @@ PreparedServo PrepareServo(const ServoSettings& settings, OpenedRig rig) {
   return prepared;
 }
 
-FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
+FinishedServo DriveServo(PreparedServo& prepared, const std::filesystem::path& folder,
                          const Interruption& interruption, ProgressLine& progress) {
   FinishedServo finished;
   finished.log.setup = prepared.setup;
@@ -293,7 +299,7 @@ FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::files
   EdgeSource& source = images ? static_cast<EdgeSource&>(*images) : *lines;
 
   ServoController controller(model, prepared.setup.goal, prepared.setup.options);
-  Recorder recorder(prepared, images ? &*images : nullptr, finished, frame_folder);
+  Recorder recorder(prepared, images ? &*images : nullptr, finished, folder);
   LiveLine live(progress, prepared.setup.options.step.law);
   ServoLoopOptions loop;
   loop.period_s = prepared.setup.period_s;

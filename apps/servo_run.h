@@ -15,6 +15,8 @@
 
 namespace legible {
 
+inline constexpr char kFrameFolder[] = "frames";  // of a log, for the images that are kept
+
 // An image of the run, with the cycle that it belongs to.
 struct RunPicture {
   std::string label;
@@ -42,8 +44,9 @@ struct FinishedServo {
   // Why edges that the last image does not show are missing: [leg][edge]; empty: they are not.
   std::array<std::array<std::string, 2>, kLegCount> missing;
 };
-// With a frame folder each image is kept there as it comes.
-FinishedServo DriveServo(PreparedServo& prepared, const std::optional<std::filesystem::path>& frame_folder,
+// The log grows in the folder, and so do the images in its folder of frames if they are to be kept. Throws
+// InputError, having moved nothing, if the log cannot be begun there.
+FinishedServo DriveServo(PreparedServo& prepared, const std::filesystem::path& folder,
                          const Interruption& interruption, ProgressLine& progress);
 
 }  // namespace legible

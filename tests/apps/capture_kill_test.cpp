@@ -1,19 +1,13 @@
 // `legible capture` as a process, killed at random moments: no session is broken, no image lost.
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <iostream>
 #include <map>
-#include <thread>
 
 #include "core/stopwatch.h"
 #include "core/vision/gray_image.h"
 #include "datasets/session_file.h"
+#include "tests/apps/process.h"
 #include "tests/apps/simulated_rigs.h"
 #include "tests/testing/random.h"
 
@@ -24,41 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kKills = 200;
 constexpr int kPoses = 10;
-
-// The program, its output thrown away.
-class Process {
- public:
-  explicit Process(const std::vector<std::string>& arguments) : id_(fork()) {
-    if (id_ != 0) return;
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    std::vector<char*> words;
-    for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
-    words.push_back(nullptr);
-    execv(words[0], words.data());
-    _exit(127);
-  }
-
-  // Whether it was killed; false: it had ended by itself, with `exit_code`.
-  bool KillAfter(double time_s) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(time_s));
-    kill(id_, SIGKILL);
-    Wait();
-    return exit_code_ < 0;
-  }
-  int Wait() {
-    int status = 0;
-    waitpid(id_, &status, 0);
-    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return exit_code_;
-  }
-  int exit_code() const { return exit_code_; }
-
- private:
-  pid_t id_;
-  int exit_code_ = 0;
-};
 
 struct KnownImage {
   std::string bytes;

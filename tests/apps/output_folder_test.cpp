@@ -51,6 +51,22 @@ TEST_F(OutputFolder, IsAsItWasWhenWritingFails) {
   EXPECT_EQ(Bytes(folder_.path() / "x"), "old");
 }
 
+TEST_F(OutputFolder, GetsResultsThatGrewInANumberedFolderWhenTheyAreWhole) {
+  folder_.Write("out/x", "old");
+  folder_.Write("out/y", "old");
+  const fs::path out = folder_.path() / "out";
+  EXPECT_EQ(MakeNumberedFolder(out, "growing-"), out / "growing-1");
+  const fs::path growing = MakeNumberedFolder(out, "growing-");
+  EXPECT_EQ(growing, out / "growing-2");
+  WriteText(growing / "x", "new");
+  EXPECT_EQ(Bytes(out / "x"), "old");
+  MoveTogether(growing, out, {"x", "y"});
+  EXPECT_EQ(Bytes(out / "x"), "new");
+  EXPECT_FALSE(fs::exists(out / "y"));
+  EXPECT_FALSE(fs::exists(growing));
+  EXPECT_EQ(MakeNumberedFolder(folder_.path() / "a" / "b", "growing-"), folder_.path() / "a/b/growing-1");
+}
+
 TEST_F(OutputFolder, TrialOfWritingLeavesNothing) {
   DemandWritable(folder_.path(), {"x"});
   DemandWritable(folder_.path() / "a" / "b" / "", {"x"});

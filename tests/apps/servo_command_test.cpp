@@ -1,4 +1,5 @@
 // `legible servo` and `legible replay` run in process on simulated rigs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,6 +120,7 @@ TEST_F(ServoCommand, ConvergesAndSaysSoInItsResult) {
   for (const char* name : {"setup.json", "cycles.csv", "edges.csv", "report.html"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "log" / name)) << name;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "log" / "frames"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "log" / "unfinished-1"));
 }
 
 TEST_F(ServoCommand, EveryModeConvergesAndReplaysBitForBit) {
@@ -304,6 +306,26 @@ TEST_F(ServoCommand, ReplayRefusesADamagedLogNamingFileAndLine) {
   expect_refusal("setup.json", Replaced(setup, "\"schema\": 1", "\"schema\": 99"), "schema");
   ExpectReplaysBitForBit();
   EXPECT_EQ(RunLegible({"replay", Path("nowhere")}).exit_code, kExitBadInput);
+}
+
+// As a kill may leave it.
+TEST_F(ServoCommand, ReplaysALogThatIsCutOffAsFarAsItIsWhole) {
+  ServoImageFree();
+  std::filesystem::remove(folder_.path() / "log/result.json");
+  const std::string cycles = Bytes(folder_.path() / "log/cycles.csv");
+  const size_t count = ReadServoLog(folder_.path() / "log").cycles.size();
+  EXPECT_THAT(Replay().out,
+              HasSubstr(fmt::format("cut off: no result.json; {} cycles were replayed\n", count)));
+  ExpectReplaysBitForBit();
+  folder_.Write("log/cycles.csv", cycles.substr(0, cycles.size() - 30));
+  EXPECT_THAT(Replay().out, HasSubstr(fmt::format(
+                                "{} cycles were replayed, what was half written was left out", count - 1)));
+  ExpectReplaysBitForBit();
+  const json comparison = json::parse(RunLegible({"replay", Path("log"), "--format", "json"}).out);
+  EXPECT_EQ(comparison["cut_off"], true);
+  EXPECT_TRUE(comparison["recorded_status"].is_null());
+  folder_.Write("log/cycles.csv", WithChangedField(cycles, "v3_m_per_s", 5, "0.3333"));
+  EXPECT_EQ(Replay().exit_code, kExitNoResult);
 }
 
 // --- With images.
