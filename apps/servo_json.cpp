@@ -32,15 +32,25 @@ ordered_json TimesJson(const std::vector<double>& times_s) {
   return {{"median", Percentile(times_s, 0.5)}, {"p99", Percentile(times_s, 0.99)}};
 }
 
-// The least of the cycles that have a number.
-template <typename F>
-ordered_json Least(const ServoLog& log, F value) {
-  std::optional<double> least;
+using LawNumber = double (*)(const LawResult& law);
+using Choice = double (*)(double a, double b);
+
+// The one that `choose` leaves of the cycles that have a number.
+ordered_json Chosen(const ServoLog& log, Choice choose, LawNumber number) {
+  std::optional<double> chosen;
   for (const LoggedCycle& logged : log.cycles) {
-    const double of_cycle = value(logged.cycle.output.step.law);
-    if (std::isfinite(of_cycle)) least = std::min(least.value_or(of_cycle), of_cycle);
+    const double of_cycle = number(logged.cycle.output.step.law);
+    if (std::isfinite(of_cycle)) chosen = choose(chosen.value_or(of_cycle), of_cycle);
   }
-  return least ? ordered_json(*least) : ordered_json();
+  return chosen ? ordered_json(*chosen) : ordered_json();
+}
+ordered_json Least(const ServoLog& log, LawNumber number) {
+  return Chosen(
+      log, [](double a, double b) { return std::min(a, b); }, number);
+}
+ordered_json Largest(const ServoLog& log, LawNumber number) {
+  return Chosen(
+      log, [](double a, double b) { return std::max(a, b); }, number);
 }
 
 // Of the last cycle; null where there was none.
@@ -106,6 +116,7 @@ ordered_json ServoJson(const PreparedServo& prepared, const FinishedServo& finis
       {"path", PathJson(prepared, finished)},
       {"max_joint_speed_m_per_s", Percentile(speeds, 1)},
       {"min_singular_value", Least(log, [](const LawResult& law) { return law.singular_values[5]; })},
+      {"max_motion_sigma_m", Largest(log, [](const LawResult& law) { return law.motion_sigma_m; })},
       {"min_conditioning", Least(log, [](const LawResult& law) { return law.Conditioning(); })},
       {"min_robot_conditioning", Least(log, [](const LawResult& law) { return law.robot_conditioning; })},
       {"compute_time_s", TimesJson(OfCycles(log, [](const ServoCycle& cycle) { return cycle.law_s; }))},

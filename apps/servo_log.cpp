@@ -87,6 +87,7 @@ CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged, const ControlLaw
   row.Add("direction_error_rad", step.law.direction_error_rad);
   row.Add("gain_per_s", step.gain_per_s);
   row.Add("smallest_singular_value", step.law.singular_values[5]);
+  row.Add("motion_sigma_m", step.law.motion_sigma_m);
   row.Add("conditioning", step.law.Conditioning());
   row.Add("robot_conditioning", step.law.robot_conditioning);
   row.Add("speed_factor", step.speed_factor);
@@ -123,6 +124,7 @@ std::string CyclesHead(const ControlLawOptions& law) {
              "# x .. rz: base_from_platform by the readings, rotation vector; true_: as a simulated rig\n"
              "# knows it, in the model's frames;\n"
              "# smallest_singular_value: of the interaction matrix as the law weighs it, 1/m;\n"
+             "# motion_sigma: of the platform's motion that one image tells worst, rotations by its radius;\n"
              "# look_s, law_s: computing times; reason: why it ended or waits.\n",
              kServoLogSchema, UnitOf(law.mode)) +
          CycleRow(0, {}, law).header() + "\n";

@@ -107,7 +107,14 @@ void AddLawOptions(CLI::App& command, ServoSettings& settings) {
       "Leaves out what has a smaller singular value than this\nshare of the largest");
 }
 
-void AddConditioningOption(CLI::App& command, ControlLawOptions& law) {
+void AddCertaintyOptions(CLI::App& command, ControlLawOptions& law) {
+  AddText(
+      command, "--most-motion-sigma", "RADII",
+      [&law](const std::string& text) { law.most_motion_sigma = ParsePositive(text); },
+      fmt::format(
+          "Stops where the noise of one image leaves some motion\nof the platform less certain than this "
+          "part of its\nradius; {:g} without it",
+          law.most_motion_sigma));
   AddText(
       command, "--least-conditioning", "RATIO",
       [&law](const std::string& text) {
@@ -115,7 +122,7 @@ void AddConditioningOption(CLI::App& command, ControlLawOptions& law) {
         law.Check();
       },
       fmt::format("Stops where what is seen tells some motion of the\nplatform less than this share of the "
-                  "best told one:\nthree legs alone need less; {:g} without it",
+                  "best told one; {:g} without it",
                   law.least_conditioning));
 }
 
@@ -186,7 +193,7 @@ const CLI::App* AddServoCommand(CLI::App& program, ServoSettings& settings) {
   AddRigOptions(*command, settings);
   AddGoalOptions(*command, settings);
   AddLawOptions(*command, settings);
-  AddConditioningOption(*command, settings.options.step.law);
+  AddCertaintyOptions(*command, settings.options.step.law);
   AddMotionOptions(*command, settings);
   command->final_callback([&settings] { DemandOneGoal(settings.goal); });
   return command;

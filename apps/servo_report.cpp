@@ -80,7 +80,7 @@ class CycleColumns {
     add("direction_error_rad", step.law.direction_error_rad);
     add("gain_per_s", step.gain_per_s);
     add("conditioning", step.law.Conditioning());
-    add("smallest_singular_value", step.law.singular_values[5]);
+    add("motion_sigma_m", step.law.motion_sigma_m);
     add("robot_conditioning", step.law.robot_conditioning);
     add("speed_factor", step.speed_factor);
     add("singularity_factor", step.singularity_factor);

@@ -104,6 +104,7 @@ void VisitOptions(Visitor& visit, T& options) {
   visit("is_weighted", options.step.law.is_weighted);
   visit("truncation", options.step.law.inverse.truncation);
   visit("damping", options.step.law.inverse.damping);
+  visit("most_motion_sigma", options.step.law.most_motion_sigma);
   visit("least_conditioning", options.step.law.least_conditioning);
   visit("least_robot_conditioning", options.step.law.least_robot_conditioning);
   visit("gain_at_zero_per_s", options.step.gain.at_zero_per_s);

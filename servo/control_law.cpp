@@ -23,14 +23,24 @@ constexpr int kLeastEdges = 6, kLeastLegs = 3;
 
 // Rows of a task, gathered.
 struct Task {
+  bool is_weighted;
   TaskMatrix interaction;  // by the paper's twist
   TaskVector error;
   int rows = 0;
+  Matrix6d noise = Matrix6d::Zero();  // covariance of interaction^T error where all count alike
 
-  Task() : interaction(kMostTaskRows, 6), error(kMostTaskRows) {}
+  explicit Task(bool weighted) : is_weighted(weighted), interaction(kMostTaskRows, 6), error(kMostTaskRows) {}
 
-  // Two rows, whitened if they are weighted.
-  void Add(const Eigen::Matrix<double, 2, 6>& derivative, const Eigen::Vector2d& value) {
+  // Two rows with the covariance of the value: divided by its square root if they are weighted.
+  void Add(Eigen::Matrix<double, 2, 6> derivative, Eigen::Vector2d value, const Eigen::Matrix2d& covariance) {
+    if (is_weighted) {
+      const Eigen::LLT<Eigen::Matrix2d> root(covariance +
+                                             kLeastSigma * kLeastSigma * Eigen::Matrix2d::Identity());
+      derivative = root.matrixL().solve(derivative).eval();
+      value = root.matrixL().solve(value).eval();
+    } else {
+      noise += derivative.transpose() * covariance * derivative;
+    }
     interaction.middleRows<2>(rows) = derivative;
     error.segment<2>(rows) = value;
     rows += 2;
@@ -87,17 +97,6 @@ void UseSeenDirections(Situation& now) {
   }
 }
 
-// Divides both rows by the square root of their covariance; leaves them where all count alike.
-void Whiten(const Eigen::Matrix2d& covariance, const ControlLawOptions& options,
-            Eigen::Matrix<double, 2, 6>& derivative, Eigen::Vector2d& value) {
-  if (!options.is_weighted) return;
-  Eigen::Matrix2d regular = covariance;
-  regular.diagonal().array() += kLeastSigma * kLeastSigma;
-  const Eigen::LLT<Eigen::Matrix2d> root(regular);
-  derivative = root.matrixL().solve(derivative).eval();
-  value = root.matrixL().solve(value).eval();
-}
-
 // e = seen x goal of one edge in the pixel frame and its interaction (eq. 37-39), in the two directions
 // across the goal's line, where all of it lies.
 void AddEdge(const Situation& now, const SeenEdge& seen, const SeenEdge& goal, Task& task) {
@@ -109,11 +108,10 @@ void AddEdge(const Situation& now, const SeenEdge& seen, const SeenEdge& goal, T
   const ImageLine line = ToImage(now.model, seen.normal), goal_line = ToImage(now.model, goal.normal);
   const Eigen::Matrix<double, 3, 2> across = TangentsOf(goal_line.line);
   const Eigen::Matrix<double, 2, 3> by_normal = -across.transpose() * Skew(goal_line.line) * line.d_normal;
-  Eigen::Matrix<double, 2, 6> derivative = by_normal * EdgeByDirection(a, in_plane, seen.normal) *
-                                           DirectionInteraction(a, in_plane, now.length_m[seen.leg]);
-  Eigen::Vector2d value = across.transpose() * line.line.cross(goal_line.line);
-  Whiten(by_normal * seen.normal_covariance * by_normal.transpose(), now.options, derivative, value);
-  task.Add(derivative, value);
+  task.Add(by_normal * EdgeByDirection(a, in_plane, seen.normal) *
+               DirectionInteraction(a, in_plane, now.length_m[seen.leg]),
+           across.transpose() * line.line.cross(goal_line.line),
+           by_normal * seen.normal_covariance * by_normal.transpose());
 }
 
 // e = u x u* of one leg (section 3.1.1), likewise.
@@ -123,17 +121,14 @@ void AddDirection(const Situation& now, const SeenEdge& edge_1, const SeenEdge& 
   const Eigen::Vector3d seen = DirectionFromEdges(edge_1.normal, edge_2.normal);
   const Eigen::Matrix<double, 3, 2> across = TangentsOf(goal);
   const Eigen::Matrix<double, 2, 3> by_direction = -across.transpose() * Skew(goal);
-  Eigen::Matrix<double, 2, 6> derivative =
-      by_direction * DirectionInteraction(now.model.base_joint_in_camera_m[leg],
-                                          now.directions.col(edge_1.leg), now.length_m[edge_1.leg]);
-  Eigen::Vector2d value = across.transpose() * seen.cross(goal);
-  Whiten(by_direction * DirectionCovariance(edge_1, edge_2) * by_direction.transpose(), now.options,
-         derivative, value);
-  task.Add(derivative, value);
+  task.Add(by_direction * DirectionInteraction(now.model.base_joint_in_camera_m[leg],
+                                               now.directions.col(edge_1.leg), now.length_m[edge_1.leg]),
+           across.transpose() * seen.cross(goal),
+           by_direction * DirectionCovariance(edge_1, edge_2) * by_direction.transpose());
 }
 
 Task TaskOf(const Situation& now, LawResult& result) {
-  Task task;
+  Task task(now.options.is_weighted);
   const bool by_edges = now.options.mode == ControlMode::kEdges;
   for (size_t leg = 0; leg < kLegCount; ++leg) {
     const auto& seen = now.seen[leg];
@@ -154,13 +149,6 @@ Task TaskOf(const Situation& now, LawResult& result) {
   return task;
 }
 
-// Makes v and rotations of the platform at its radius one unit.
-Vector6d RotationsByRadius(const ServoModel& model) {
-  Vector6d scale = Vector6d::Ones();
-  scale.tail<3>().setConstant(1 / model.platform_radius_m);
-  return scale;
-}
-
 // The paper's twist by one whose v is that at the platform's origin, in these units: singular values then do
 // not depend on where the camera stands.
 Matrix6d TwistByPlatformMotion(const ServoModel& model, const Rigid3& base_from_platform) {
@@ -168,6 +156,27 @@ Matrix6d TwistByPlatformMotion(const ServoModel& model, const Rigid3& base_from_
   Matrix6d twist = Matrix6d::Identity();
   twist.topRightCorner<3, 3>() = Skew(origin_in_camera);
   return twist * RotationsByRadius(model).asDiagonal();
+}
+
+// Of the motion that the errors tell worst, by the noise of these; infinite where one is not told at all.
+double LargestMotionSigma(const Task& task, const Matrix6d& twist, const LeastSquares& squares) {
+  if (task.is_weighted) return 1 / squares.singular_values[5];
+  // The covariance is (L^T L)^-1 L^T S L (L^T L)^-1, and L^T L = R^T R.
+  const auto normal_solve = [&squares](const Matrix6d& right) -> Matrix6d {
+    const auto triangle = squares.triangle.triangularView<Eigen::Upper>();
+    return triangle.solve(triangle.transpose().solve(right).eval());
+  };
+  const Matrix6d half = normal_solve(twist.transpose() * task.noise * twist);
+  const Matrix6d covariance = normal_solve(half.transpose());
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(
+      Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance, Eigen::EigenvaluesOnly).eigenvalues()[5]);
+}
+
+// Whether what is seen is ground to move on.
+bool IsCertainEnough(const ControlLawOptions& options, const LawResult& result) {
+  return result.Conditioning() >= options.least_conditioning &&
+         result.motion_sigma_m <= result.most_motion_sigma_m;
 }
 
 // The twist that the features ask for, as joint motion: -J L^+ e.
@@ -182,7 +191,8 @@ void ServoFeatures(const Situation& now, LawResult& result) {
   const LeastSquares squares = SolveLeastSquares(task.interaction, task.error, now.options.inverse);
   result.singular_values = squares.singular_values;
   result.rank = squares.rank;
-  if (!(result.Conditioning() >= now.options.least_conditioning)) {
+  result.motion_sigma_m = LargestMotionSigma(task, twist, squares);
+  if (!IsCertainEnough(now.options, result)) {
     result.status = LawStatus::kIllConditionedEdges;
     return;
   }
@@ -221,7 +231,8 @@ void ServoPoseFromEdges(const Situation& now, const LawInput& input, LawResult& 
     // As of the edges' whitened interaction matrix.
     const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariance, Eigen::EigenvaluesOnly);
     result.singular_values = eigen.eigenvalues().cwiseSqrt().cwiseInverse();
-    if (!(result.Conditioning() >= now.options.least_conditioning))
+    result.motion_sigma_m = 1 / result.singular_values[5];
+    if (!IsCertainEnough(now.options, result))
       result.status = LawStatus::kIllConditionedEdges;
     else
       ServoPose(now, pose.base_from_platform, result);
@@ -250,11 +261,7 @@ bool JudgeRobot(const ServoModel& model, const LawInput& input, const ControlLaw
     return false;
   }
   result.base_from_platform = forward.base_from_platform;
-  const TaskMatrix jacobian =
-      InverseJacobian(model.robot, forward.base_from_platform) * RotationsByRadius(model).asDiagonal();
-  const LeastSquares squares = SolveLeastSquares(jacobian, TaskVector::Zero(6), {});
-  result.singular_values = squares.singular_values;
-  result.rank = squares.rank;
+  result.singular_values = RobotSingularValues(model, forward.base_from_platform);
   result.robot_conditioning = result.Conditioning();
   if (result.robot_conditioning >= options.least_robot_conditioning) return true;
   result.status = LawStatus::kRobotSingular;
@@ -288,6 +295,8 @@ void ControlLawOptions::Check() const {
   if (!(least_conditioning >= 0 && least_conditioning < 1) ||
       !(least_robot_conditioning >= 0 && least_robot_conditioning < 1))
     throw std::invalid_argument("ControlLawOptions: the least conditioning must be in [0, 1)");
+  if (!(most_motion_sigma > 0))
+    throw std::invalid_argument("ControlLawOptions: most_motion_sigma must be positive");
 }
 
 bool LooksAtImages(const ControlLawOptions& options) {
@@ -321,6 +330,7 @@ void DemandGoal(const ServoGoal& goal, const ControlLawOptions& options) {
 LawResult EvaluateLaw(const ServoModel& model, const ServoGoal& goal, const LawInput& input,
                       const ControlLawOptions& options) {
   LawResult result;
+  result.most_motion_sigma_m = options.most_motion_sigma * model.platform_radius_m;
   Situation now{model, goal, options, OfLegs(input.seen, options.legs), {}, {}};
   const ImageErrors errors = MeasureImageErrors(model, now.seen, goal);
   result.edge_error_px = errors.edge_px;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <bitset>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,11 @@ struct ControlLawOptions {
   std::bitset<kLegCount> legs = std::bitset<kLegCount>().set();  // that are looked at
   bool is_weighted = true;  // by each edge's covariance; false: all alike, as in the paper
   PseudoInverseOptions inverse;
-  // Of what is seen, smallest over largest singular value (rotations by the platform's radius): less is no
-  // ground to move on.
-  double least_conditioning = 1e-3;
+  // What is seen is no ground to move on where its noise leaves a motion of the platform less certain than
+  // this (LawResult::motion_sigma_m over the platform's radius), or where
+  double most_motion_sigma = 0.5;
+  // smallest over largest singular value of what is seen (rotations by the platform's radius) are less.
+  double least_conditioning = 3e-5;
   // The same of the robot's inverse Jacobian.
   double least_robot_conditioning = 0.01;
 
@@ -59,7 +62,7 @@ enum class LawStatus {
   kNoPose,               // the readings belong to no pose near the last one
   kRobotSingular,        // closer to a singularity than least_robot_conditioning
   kTooFewEdges,          // fewer than six, or of fewer than three legs, that the goal has too
-  kIllConditionedEdges,  // less than least_conditioning
+  kIllConditionedEdges,  // beyond most_motion_sigma or least_conditioning
   kNoPoseFromEdges,
 };
 
@@ -86,8 +89,12 @@ struct LawResult {
   std::bitset<kLegCount> unseen, half_seen;
   int rank = 0;
   Vector6d singular_values = Vector6d::Zero();  // of what is seen (or of the inverse Jacobian), descending
-  double robot_conditioning = 0;                // smallest over largest singular value, rotations scaled
-  Rigid3 base_from_platform;                    // by the readings
+  // Standard deviation of the platform's motion that is told worst (rotations by the platform's radius), m,
+  // by the noise of the edges seen in one image. NaN of a law that looks at none.
+  double motion_sigma_m = std::numeric_limits<double>::quiet_NaN();
+  double most_motion_sigma_m = 0;  // that is allowed
+  double robot_conditioning = 0;   // smallest over largest singular value, rotations scaled
+  Rigid3 base_from_platform;       // by the readings
   double edge_error_px = 0;        // rms over the ends of all edges that goal and image share; NaN: none
   double direction_error_rad = 0;  // rms over the legs; NaN: none
 

@@ -1,6 +1,7 @@
 #include "servo/servo_model.h"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <stdexcept>
 
 namespace legible {
@@ -20,6 +21,18 @@ ServoModel MakeServoModel(const GoughStewart& robot, const Camera& camera, const
   model.k_inverse_transposed = model.k.inverse().transpose();
   model.focal_px = (camera.fx_px + camera.fy_px) / 2;
   return model;
+}
+
+Vector6d RotationsByRadius(const ServoModel& model) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / model.platform_radius_m);
+  return scale;
+}
+
+Vector6d RobotSingularValues(const ServoModel& model, const Rigid3& base_from_platform) {
+  const Matrix6d jacobian =
+      InverseJacobian(model.robot, base_from_platform) * RotationsByRadius(model).asDiagonal();
+  return Eigen::JacobiSVD<Matrix6d>(jacobian).singularValues();
 }
 
 Vector6d LegLengths(const GoughStewart& robot, const Vector6d& joint_readings_m) {

@@ -26,6 +26,14 @@ struct ServoModel {
 // Throws std::invalid_argument for a camera without size or focal length.
 ServoModel MakeServoModel(const GoughStewart& robot, const Camera& camera, const Rigid3& camera_from_base);
 
+// Makes displacements of the platform (m) and its rotations, as displacements at its radius, one unit: twists
+// are these times that.
+Vector6d RotationsByRadius(const ServoModel& model);
+
+// Singular values of the robot's inverse Jacobian at a pose in these units, descending: the last over the
+// first is its conditioning, 0 at a Type 2 singularity.
+Vector6d RobotSingularValues(const ServoModel& model, const Rigid3& base_from_platform);
+
 // Leg lengths by the joint readings, m.
 Vector6d LegLengths(const GoughStewart& robot, const Vector6d& joint_readings_m);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,20 +11,30 @@
 namespace legible {
 namespace {
 
-// 0 at `least` or below, 1 from `slow` times it on.
-double FactorNear(double conditioning, double least, double slow) {
-  if (least <= 0) return 1;
-  return std::clamp((conditioning / least - 1) / (slow - 1), 0.0, 1.0);
+// 0 where a number is at its limit or beyond, or is none; 1 from `slow` times as far on.
+double FactorNear(double times_the_limit, double slow) {
+  return times_the_limit > 1 ? std::min((times_the_limit - 1) / (slow - 1), 1.0) : 0;
 }
 
-void SlowNearSingularity(const ServoStepOptions& options, ServoStep& step) {
+// Whether the speeds lead the robot to a better conditioning: out of a singularity.
+bool LeadsOut(const ServoModel& model, const ServoStep& step) {
+  constexpr double kAhead = 1e-4;  // m or rad: enough to tell
+  const Rigid3& pose = step.law.base_from_platform;
+  const Vector6d twist = InverseJacobian(model.robot, pose).partialPivLu().solve(step.joint_speeds_m_per_s);
+  if (!(twist.norm() > 0)) return false;
+  const Vector6d ahead = RobotSingularValues(model, Displaced(pose, kAhead * twist.normalized()));
+  return ahead[5] / ahead[0] > step.law.robot_conditioning;
+}
+
+void SlowNearSingularity(const ServoModel& model, const ServoStepOptions& options, ServoStep& step) {
   const LawResult& law = step.law;
-  const double robot =
-      FactorNear(law.robot_conditioning, options.law.least_robot_conditioning, options.slow_conditioning);
-  const double sight =
-      LooksAtImages(options.law)
-          ? FactorNear(law.Conditioning(), options.law.least_conditioning, options.slow_conditioning)
-          : 1;
+  const double slow = options.slow_conditioning;
+  double robot = FactorNear(law.robot_conditioning / options.law.least_robot_conditioning, slow);
+  if (robot < 1 && LeadsOut(model, step)) robot = 1;
+  const double sight = LooksAtImages(options.law)
+                           ? std::min(FactorNear(law.Conditioning() / options.law.least_conditioning, slow),
+                                      std::min(law.most_motion_sigma_m / (slow * law.motion_sigma_m), 1.0))
+                           : 1;
   step.singularity_factor = std::min(robot, sight);
   step.is_robot_near_singularity = robot < sight;
   step.joint_speeds_m_per_s *= step.singularity_factor;
@@ -90,7 +101,7 @@ ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const Law
   if (step.law.status != LawStatus::kOk) return step;
   step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
   step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
-  SlowNearSingularity(options, step);
+  SlowNearSingularity(model, options, step);
   KeepLimits(model, input, options.limits, step);
   return step;
 }
@@ -119,6 +130,15 @@ std::string UnseenText(const LawResult& law) {
   return text;
 }
 
+// By what a motion counts as open.
+std::string OpenMotionText(const LawResult& law, const ControlLawOptions& options) {
+  if (law.Conditioning() >= options.least_conditioning)
+    return fmt::format("noise leaves it a σ of {:.2g} mm, at most {:.2g} mm are asked for",
+                       1e3 * law.motion_sigma_m, 1e3 * law.most_motion_sigma_m);
+  return fmt::format("conditioning {:.2g}, at least {:.2g} is asked for", law.Conditioning(),
+                     options.least_conditioning);
+}
+
 }  // namespace
 
 std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options) {
@@ -137,10 +157,8 @@ std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options)
       return fmt::format("too few edges are seen: {} of {} legs, where six edges of three legs are needed{}",
                          law.edges, law.legs, UnseenText(law));
     case LawStatus::kIllConditionedEdges:
-      return fmt::format(
-          "the {} edges seen, of {} legs, leave a motion of the platform open: conditioning {:.2g}, at least "
-          "{:.2g} is asked for{}",
-          law.edges, law.legs, law.Conditioning(), options.least_conditioning, UnseenText(law));
+      return fmt::format("the {} edges seen, of {} legs, leave a motion of the platform open: {}{}",
+                         law.edges, law.legs, OpenMotionText(law, options), UnseenText(law));
     case LawStatus::kNoPoseFromEdges:
       return "no pose of the platform near the joint readings fits the edges" + UnseenText(law);
   }

@@ -15,7 +15,8 @@ struct ServoStepOptions {
   AdaptiveGain gain{4, 2, 400};
   JointLimitOptions limits;
   // Between this many times the least conditioning, of the robot or of what is seen, and the least itself the
-  // robot slows down to nothing.
+  // robot slows down to nothing; but not on its way out of a singularity of its own. From this part of
+  // most_motion_sigma on it slows down too, so that noise alone never drives it faster than there.
   double slow_conditioning = 3;
 
   void Check() const;  // throws std::invalid_argument

@@ -300,8 +300,9 @@ std::optional<Verdict> Supervisor::JudgeUsability(const CycleInput& input, const
 std::optional<Verdict> Supervisor::JudgeProgress(const CycleInput& input, const ServoStep& step) {
   if (last_.is_waiting) return std::nullopt;
   if (HasArrived(input, step))
-    return Ended(ServoEnd::kConverged, fmt::format("{} left, within the tolerance of {}",
-                                                   ErrorText(step.law.error), ErrorText(options_.tolerance)));
+    return Ended(ServoEnd::kConverged,
+                 fmt::format("{} left, within the tolerance of {}{}", ErrorText(step.law.error),
+                             ErrorText(options_.tolerance), CertaintyText(step)));
   if (Grows(input, step))
     return Ended(ServoEnd::kErrorGrows,
                  fmt::format("the error grows: {} after {} at its smallest", ErrorText(step.law.error),
@@ -342,6 +343,13 @@ bool Supervisor::Grows(const CycleInput& input, const ServoStep& step) {
   return input.time_s - *growing_since_s_ >= options_.growth_s - kTimeSlack_s;
 }
 
+// What an error in the image says of the platform's place.
+std::string Supervisor::CertaintyText(const ServoStep& step) const {
+  if (!LooksAtImages(law_)) return "";
+  return fmt::format("; one image tells the platform's place to a σ of {:.2g} mm",
+                     1e3 * step.law.motion_sigma_m);
+}
+
 // Compares the two halves of the last stall_s.
 std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const ServoStep& step) {
   recent_.push_back({input.time_s, EdgesBehind(input), step.law.error,
@@ -368,9 +376,10 @@ std::optional<Verdict> Supervisor::JudgeStall(const CycleInput& input, const Ser
     return std::nullopt;
   }
   if (!falls && IsNoiseAlone(mean, step.law.error_noise))
-    return Ended(ServoEnd::kConverged,
-                 fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({})",
-                             ErrorText(mean), ErrorText(step.law.error_noise)));
+    return Ended(
+        ServoEnd::kConverged,
+        fmt::format("{} left, which no longer falls and is what the noise of the edges leaves ({}){}",
+                    ErrorText(mean), ErrorText(step.law.error_noise), CertaintyText(step)));
   if (!falls) return WhyStalled(step);
   recent_.pop_front();
   return std::nullopt;

@@ -108,6 +108,7 @@ class Supervisor {
   bool HasArrived(const CycleInput& input, const ServoStep& step);
   // Those that an error in the image is the mean over; none where the error is no matter of edges.
   std::bitset<2 * kLegCount> EdgesBehind(const CycleInput& input) const;
+  std::string CertaintyText(const ServoStep& step) const;
   std::string WhyTooLate(const ServoStep& step) const;
   bool Grows(const CycleInput& input, const ServoStep& step);
   std::optional<Verdict> JudgeStall(const CycleInput& input, const ServoStep& step);

@@ -12,36 +12,11 @@
 
 #include "servo/interaction.h"
 #include "servo/servo_step.h"
-#include "tests/servo/servo_scene.h"
+#include "tests/servo/law_task.h"
 #include "tests/testing/matrices.h"
 
 namespace legible {
 namespace {
-
-// A scene with a goal that the robot is not at.
-struct Task {
-  ServoScene scene;
-  ServoGoal goal;
-
-  LawInput Input(const SeenEdges& seen) const {
-    return {seen, InverseKinematics(scene.model.robot, scene.pose), Vector6d::Zero(), scene.pose};
-  }
-  LawInput Input() const { return Input(EdgesAt(scene.model, scene.pose)); }
-};
-
-Task RandomTask(std::mt19937_64& generator, double most_m) {
-  const ServoScene scene = RandomScene(generator);
-  return {scene, GoalAtPose(scene.model, Nearby(scene.pose, most_m, generator))};
-}
-
-ControlLawOptions Law(ControlMode mode, bool is_weighted = false,
-                      DirectionSource source = DirectionSource::kEdges) {
-  ControlLawOptions options;
-  options.mode = mode;
-  options.is_weighted = is_weighted;
-  options.direction_source = source;
-  return options;
-}
 
 Eigen::Vector3d PixelLine(const ServoModel& model, const Eigen::Vector3d& normal) {
   return (model.k.inverse().transpose() * normal).normalized();
@@ -72,7 +47,7 @@ NormalsByLeg Normals(const SeenEdges& seen) {
 }
 
 // Eq. 37 to 41 with gain 1 and the pseudo-inverse that eq. 40 lost; both edges of each leg that is seen.
-Vector6d ByThePaper(const Task& task, const SeenEdges& seen) {
+Vector6d ByThePaper(const LawTask& task, const SeenEdges& seen) {
   const ServoModel& model = task.scene.model;
   const NormalsByLeg normals = Normals(seen);
   Eigen::MatrixXd interaction(0, 6), error(0, 1), jacobian(6, 6);
@@ -110,7 +85,7 @@ TEST(EdgeLaw, GivesTheJointSpeedsOfThePapersEquationsWrittenOut) {
   std::mt19937_64 generator = TestGenerator();
   int counted = 0;
   for (int n = 0; n < 60; ++n) {
-    const Task task = RandomTask(generator, 0.03);
+    const LawTask task = RandomTask(generator, 0.03);
     SeenEdges seen = EdgesAt(task.scene.model, task.scene.pose);
     GiveCovariances(seen, 1e-3, generator);
     seen = Moved(seen, generator);  // the equations hold for edges that fit no pose too
@@ -149,13 +124,13 @@ std::vector<Mode> AllModes() {
 }
 
 // Sightings without noise that are said to have some.
-SeenEdges WithCovariances(const Task& task, std::mt19937_64& generator) {
+SeenEdges WithCovariances(const LawTask& task, std::mt19937_64& generator) {
   SeenEdges seen = EdgesAt(task.scene.model, task.scene.pose);
   GiveCovariances(seen, 1e-4, generator);
   return seen;
 }
 
-double ShareOff(const ControlLawOptions& law, const Task& task, std::mt19937_64& generator) {
+double ShareOff(const ControlLawOptions& law, const LawTask& task, std::mt19937_64& generator) {
   const LawInput input = task.Input(WithCovariances(task, generator));
   const LawResult result = EvaluateLaw(task.scene.model, task.goal, input, law);
   EXPECT_EQ(result.status, LawStatus::kOk);
@@ -172,7 +147,7 @@ TEST(ControlLaw, GoesTheJointsTrueWayToFirstOrder) {
       Vector6d direction;
       direction << UniformVector(generator, -1, 1), UniformVector(generator, -3, 3);
       const auto off = [&](double eps_m) {
-        const Task task{scene, GoalAtPose(scene.model, Displaced(scene.pose, eps_m * direction))};
+        const LawTask task{scene, GoalAtPose(scene.model, Displaced(scene.pose, eps_m * direction))};
         return ShareOff(mode.law, task, generator);
       };
       EXPECT_LT(off(1e-3), 0.1);
@@ -187,7 +162,7 @@ TEST(ControlLaw, WantsNothingAtTheGoal) {
     SCOPED_TRACE(mode.name);
     for (int n = 0; n < 10; ++n) {
       const ServoScene scene = RandomScene(generator);
-      const Task task{scene, GoalAtPose(scene.model, scene.pose)};
+      const LawTask task{scene, GoalAtPose(scene.model, scene.pose)};
       const LawResult result =
           EvaluateLaw(scene.model, task.goal, task.Input(WithCovariances(task, generator)), mode.law);
       ASSERT_EQ(result.status, LawStatus::kOk);
@@ -201,7 +176,7 @@ TEST(ControlLaw, WantsNothingAtTheGoal) {
 
 // Twist of least sum of squares, each error in the metric of its own covariance: minus the way that it asks
 // for. Normal equations over the plane across each goal's line.
-Vector6d WeightedTwist(const Task& task, const SeenEdges& seen) {
+Vector6d WeightedTwist(const LawTask& task, const SeenEdges& seen) {
   const ServoModel& model = task.scene.model;
   const NormalsByLeg normals = Normals(seen);
   Matrix6d information = Matrix6d::Zero();
@@ -233,7 +208,7 @@ Vector6d WeightedTwist(const Task& task, const SeenEdges& seen) {
 TEST(EdgeLaw, WeightsEachEdgeByItsCovariance) {
   std::mt19937_64 generator = TestGenerator();
   for (int n = 0; n < 30; ++n) {
-    const Task task = RandomTask(generator, 0.02);
+    const LawTask task = RandomTask(generator, 0.02);
     SeenEdges seen = EdgesAt(task.scene.model, task.scene.pose);
     GiveCovariances(seen, 1e-3, generator);
     seen = Moved(seen, generator);
@@ -253,107 +228,11 @@ TEST(EdgeLaw, WeightsEachEdgeByItsCovariance) {
   }
 }
 
-TEST(ControlLaw, KnowsWhatNoiseMakesOfItsWayAndError) {
-  std::mt19937_64 generator = TestGenerator();
-  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections}) {
-    const ServoScene scene = RandomScene(generator);
-    const Task task{scene, GoalAtPose(scene.model, scene.pose)};
-    SeenEdges seen = EdgesAt(scene.model, scene.pose);
-    GiveCovariances(seen, 3e-5, generator);
-    constexpr int kDraws = 3000;
-    double chi2 = 0, squares = 0, predicted = 0;
-    for (int n = 0; n < kDraws; ++n) {
-      const LawResult result = EvaluateLaw(scene.model, task.goal, task.Input(Moved(seen, generator)),
-                                           Law(mode, true, DirectionSource::kModel));
-      chi2 += (result.metric * result.to_go_m).squaredNorm();
-      squares += result.error * result.error;
-      predicted += result.error_noise * result.error_noise;
-    }
-    // Sum of 6 squares of standard normals: its mean varies by sqrt(12 / draws) = 0.063. The seen
-    // directions' covariance is of first order in 3e-5 / 0.02, the angle between the edges.
-    EXPECT_NEAR(chi2 / kDraws, 6, 5 * std::sqrt(12.0 / kDraws));
-    EXPECT_NEAR(squares / predicted, 1, 5 * std::sqrt(2.0 / (6 * kDraws)));
-  }
-}
-
-// The ends of a stretch that was seen lie on its line.
-SeenEdges WithEndsOnTheirLines(SeenEdges seen) {
-  for (SeenEdge& edge : seen.edges)
-    for (Eigen::Vector2d& end : edge.ends) {
-      const Eigen::Vector2d across = edge.normal.head<2>();
-      end -= across * (edge.normal.dot(end.homogeneous()) / across.squaredNorm());
-    }
-  return seen;
-}
-
-// A goal that was shown has noise of its own, for good.
-TEST(ControlLaw, KnowsWhatNoiseOfAShownGoalMakesOfItsError) {
-  std::mt19937_64 generator = TestGenerator();
-  for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections}) {
-    SCOPED_TRACE(ToString(mode));
-    const ServoScene scene = RandomScene(generator);
-    SeenEdges exact = EdgesAt(scene.model, scene.pose);
-    GiveCovariances(exact, 3e-5, generator);
-    constexpr int kDraws = 1000;
-    double squares = 0, predicted = 0;
-    for (int n = 0; n < kDraws; ++n) {
-      const SeenEdges shown = WithEndsOnTheirLines(Moved(exact, generator));
-      const Task task{scene, GoalFromEdges(scene.model, shown, scene.pose)};
-      const LawResult result =
-          EvaluateLaw(scene.model, task.goal, task.Input(Moved(exact, generator)), Law(mode));
-      squares += result.error * result.error;
-      predicted += result.error_noise * result.error_noise;
-    }
-    EXPECT_NEAR(squares / predicted, 1, 5 * std::sqrt(2.0 / (6 * kDraws)));
-  }
-}
-
-TEST(PoseLaw, KnowsWhatNoiseMakesOfItsError) {
-  std::mt19937_64 generator = TestGenerator();
-  const ServoScene scene = RandomScene(generator);
-  const Task task{scene, GoalAtPose(scene.model, scene.pose)};
-  SeenEdges seen = EdgesAt(scene.model, scene.pose);
-  GiveCovariances(seen, 3e-5, generator);
-  ControlLawOptions law = Law(ControlMode::kPose);
-  law.pose_source = PoseSource::kEdges;
-  constexpr int kDraws = 1000;
-  double squares = 0, predicted = 0;
-  for (int n = 0; n < kDraws; ++n) {
-    const LawResult result = EvaluateLaw(scene.model, task.goal, task.Input(Moved(seen, generator)), law);
-    squares += result.error * result.error;
-    predicted += result.error_noise * result.error_noise;
-  }
-  EXPECT_NEAR(squares / predicted, 1, 5 * std::sqrt(2.0 / kDraws));  // one direction alone could hold it all
-}
-
-TEST(DirectionCovariance, IsTheScatterOfDirections) {
-  std::mt19937_64 generator = TestGenerator();
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    const ServoScene scene = RandomScene(generator);
-    SeenEdges seen = Only(EdgesAt(scene.model, scene.pose), [&](int i, int) { return i == leg; });
-    GiveCovariances(seen, 1e-5, generator);
-    const Eigen::Matrix3d covariance = DirectionCovariance(seen.edges[0], seen.edges[1]);
-    const Eigen::Vector3d u = DirectionFromEdges(seen.edges[0].normal, seen.edges[1].normal);
-    EXPECT_NEAR((covariance * u).norm(), 0, 1e-12 * covariance.norm());
-    const Eigen::Matrix<double, 3, 2> across = TangentsOf(u);
-    const Eigen::Matrix2d inverse = (across.transpose() * covariance * across).inverse();
-    constexpr int kDraws = 2000;
-    double chi2 = 0;
-    for (int n = 0; n < kDraws; ++n) {
-      const SeenEdges moved = Moved(seen, generator);
-      const Eigen::Vector2d off =
-          across.transpose() * DirectionFromEdges(moved.edges[0].normal, moved.edges[1].normal);
-      chi2 += off.dot(inverse * off);
-    }
-    EXPECT_NEAR(chi2 / kDraws, 2, 5 * std::sqrt(4.0 / kDraws));
-  }
-}
-
 // Of edges that are among the least there can be.
 void ExpectTrueWay(std::mt19937_64& generator, const std::function<bool(int, int)>& keep) {
   int counted = 0;
   for (int n = 0; n < 20; ++n) {
-    const Task task = RandomTask(generator, 1e-6);
+    const LawTask task = RandomTask(generator, 1e-6);
     const LawInput input = task.Input(Only(EdgesAt(task.scene.model, task.scene.pose), keep));
     ControlLawOptions law = Law(ControlMode::kEdges);
     law.least_conditioning = 1e-5;
@@ -377,7 +256,7 @@ TEST(EdgeLaw, SixEdgesAreEnough) {
 
 TEST(EdgeLaw, FiveEdgesAreTooFew) {
   std::mt19937_64 generator = TestGenerator();
-  const Task task = RandomTask(generator, 0.01);
+  const LawTask task = RandomTask(generator, 0.01);
   const SeenEdges five = Only(EdgesAt(task.scene.model, task.scene.pose),
                               [](int leg, int edge) { return leg > 0 && edge == 0; });
   const LawResult result =
@@ -394,7 +273,7 @@ TEST(EdgeLaw, FiveEdgesAreTooFew) {
 TEST(ControlLaw, LooksOnlyAtTheLegsThatItIsToldTo) {
   std::mt19937_64 generator = TestGenerator();
   for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections, ControlMode::kPose}) {
-    const Task task = RandomTask(generator, 0.02);
+    const LawTask task = RandomTask(generator, 0.02);
     ControlLawOptions some = Law(mode), all = Law(mode);
     some.pose_source = all.pose_source = PoseSource::kEdges;
     some.legs = 0b110101;
@@ -412,7 +291,7 @@ TEST(ControlLaw, LooksOnlyAtTheLegsThatItIsToldTo) {
 TEST(ControlLaw, IsTheSameBitForBitForTheSameInput) {
   std::mt19937_64 generator = TestGenerator();
   for (const Mode& mode : AllModes()) {
-    const Task task = RandomTask(generator, 0.02);
+    const LawTask task = RandomTask(generator, 0.02);
     const LawInput input = task.Input(WithCovariances(task, generator));
     const ServoStepOptions options = Unlimited(mode.law, 2);
     const ServoStep once = EvaluateStep(task.scene.model, task.goal, input, options);
@@ -422,7 +301,7 @@ TEST(ControlLaw, IsTheSameBitForBitForTheSameInput) {
   }
 }
 
-LawResult StatusOf(const Task& task, const LawInput& input, const ControlLawOptions& law) {
+LawResult StatusOf(const LawTask& task, const LawInput& input, const ControlLawOptions& law) {
   LawResult result = EvaluateLaw(task.scene.model, task.goal, input, law);
   EXPECT_NE(result.status, LawStatus::kOk);
   EXPECT_EQ(result.to_go_m, Vector6d::Zero());
@@ -434,7 +313,7 @@ LawResult StatusOf(const Task& task, const LawInput& input, const ControlLawOpti
 
 TEST(ControlLaw, NeedsThreeLegs) {
   std::mt19937_64 generator = TestGenerator();
-  const Task task = RandomTask(generator, 0.01);
+  const LawTask task = RandomTask(generator, 0.01);
   const SeenEdges two_legs =
       Only(EdgesAt(task.scene.model, task.scene.pose), [](int leg, int) { return leg == 1 || leg == 4; });
   for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections, ControlMode::kPose}) {
@@ -467,7 +346,7 @@ ServoScene SceneWithParallelLegs(std::mt19937_64& generator) {
 TEST(ControlLaw, SeesThatParallelLegsLeaveAMotionOpen) {
   std::mt19937_64 generator = TestGenerator();
   const ServoScene scene = SceneWithParallelLegs(generator);
-  const Task task{scene, GoalAtPose(scene.model, scene.pose)};
+  const LawTask task{scene, GoalAtPose(scene.model, scene.pose)};
   for (const ControlMode mode : {ControlMode::kEdges, ControlMode::kDirections}) {
     ControlLawOptions law = Law(mode);
     EXPECT_EQ(EvaluateLaw(scene.model, task.goal, task.Input(), law).status, LawStatus::kOk);
@@ -480,7 +359,7 @@ TEST(ControlLaw, SeesThatParallelLegsLeaveAMotionOpen) {
 
 TEST(ControlLaw, DoesNotMoveOnEdgesThatAreNoNumbers) {
   std::mt19937_64 generator = TestGenerator();
-  const Task task = RandomTask(generator, 0.01);
+  const LawTask task = RandomTask(generator, 0.01);
   LawInput input = task.Input();
   input.seen.edges[5].normal.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(StatusOf(task, input, Law(ControlMode::kEdges)).status, LawStatus::kIllConditionedEdges);
@@ -499,7 +378,7 @@ TEST(ControlLaw, SeesASingularRobotInEveryMode) {
   const ServoModel model = MakeServoModel(robot, DesktopCamera(false), LookAt({1, 0, 0.3}, {0, 0, 0.15}));
   for (const double turn_rad : {std::numbers::pi / 2, std::numbers::pi / 2 - 0.002}) {
     const Rigid3 pose{RotationFromVector({0, 0, turn_rad}), {0, 0, 0.32}};
-    const Task task{{model, pose}, GoalAtPose(model, pose)};
+    const LawTask task{{model, pose}, GoalAtPose(model, pose)};
     for (const Mode& mode : AllModes())
       EXPECT_EQ(StatusOf(task, task.Input(), mode.law).status, LawStatus::kRobotSingular) << mode.name;
   }
@@ -507,7 +386,7 @@ TEST(ControlLaw, SeesASingularRobotInEveryMode) {
 
 TEST(ControlLaw, RefusesReadingsThatAreNoNumbersOrBelongToNoPose) {
   std::mt19937_64 generator = TestGenerator();
-  const Task task = RandomTask(generator, 0.01);
+  const LawTask task = RandomTask(generator, 0.01);
   for (const Mode& mode : AllModes()) {
     LawInput input = task.Input();
     input.joint_readings_m[3] = std::numeric_limits<double>::quiet_NaN();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "core/rig/drives.h"
@@ -260,19 +261,40 @@ TEST(ServoStep, HoldsAJointAtTheEndOfItsRangeAndSaysWhich) {
   EXPECT_EQ(DescribeLimits(free), "");
 }
 
-TEST(ServoStep, SlowsDownTowardsASingularity) {
+// Smallest over largest singular value of the inverse Jacobian, rotations by the platform's radius.
+double RobotConditioning(const ServoModel& model, const Rigid3& pose) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / model.platform_radius_m);
+  const Eigen::MatrixXd jacobian = InverseJacobian(model.robot, pose) * scale.asDiagonal();
+  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(jacobian).singularValues();
+  return values[5] / values[0];
+}
+
+TEST(ServoStep, SlowsDownTowardsASingularityButNotOnTheWayOut) {
   std::mt19937_64 generator = TestGenerator();
   const ServoScene scene = RandomScene(generator);
-  ServoStepOptions options = JointStep();
-  const ServoStep free = StepBy(scene, Vector6d::Constant(1e-3), options, {-10, 10});
-  EXPECT_EQ(free.singularity_factor, 1);
-  // The robot's conditioning lies at twice the least, halfway between 1 and 3 times.
-  options.law.least_robot_conditioning = free.law.robot_conditioning / 2;
-  const ServoStep slowed = StepBy(scene, Vector6d::Constant(1e-3), options, {-10, 10});
-  EXPECT_NEAR(slowed.singularity_factor, 0.5, 1e-12);
-  EXPECT_TRUE(slowed.is_robot_near_singularity);
-  EXPECT_TRUE(AreNear(slowed.joint_speeds_m_per_s, 0.5 * free.joint_speeds_m_per_s, 1e-15));
-  EXPECT_NE(DescribeLimits(slowed).find("slowed to 50 % near a singularity of the robot"), std::string::npos);
+  const Vector6d readings_m = InverseKinematics(scene.model.robot, scene.pose);
+  for (const double way_m : {1e-3, -1e-3}) {
+    const Vector6d way = Vector6d::Constant(way_m);
+    ServoStepOptions options = JointStep();
+    const ServoStep free = StepBy(scene, way, options, {-10, 10});
+    EXPECT_EQ(free.singularity_factor, 1);
+    EXPECT_NEAR(free.law.robot_conditioning, RobotConditioning(scene.model, scene.pose), 1e-12);
+    // The robot's conditioning lies at twice the least, halfway between 1 and 3 times.
+    options.law.least_robot_conditioning = free.law.robot_conditioning / 2;
+    const ServoStep near = StepBy(scene, way, options, {-10, 10});
+    const Rigid3 ahead =
+        ForwardKinematics(scene.model.robot, readings_m + 0.1 * way, scene.pose).base_from_platform;
+    if (RobotConditioning(scene.model, ahead) > free.law.robot_conditioning) {
+      EXPECT_EQ(near.singularity_factor, 1);
+      EXPECT_EQ(near.joint_speeds_m_per_s, free.joint_speeds_m_per_s);
+      continue;
+    }
+    EXPECT_NEAR(near.singularity_factor, 0.5, 1e-12);
+    EXPECT_TRUE(near.is_robot_near_singularity);
+    EXPECT_TRUE(AreNear(near.joint_speeds_m_per_s, 0.5 * free.joint_speeds_m_per_s, 1e-15));
+    EXPECT_NE(DescribeLimits(near).find("slowed to 50 % near a singularity of the robot"), std::string::npos);
+  }
 }
 
 TEST(ServoStep, RefusesOptionsOutOfRange) {

@@ -198,10 +198,12 @@ bool IsHonest(const Outcome& outcome) {
   }
 }
 
-// Nothing is in the way.
+// Nothing is in the way. Stronger noise leaves some motions too uncertain to move on, where legs hide each
+// other.
 bool IsUnhindered(const ServoTrial& trial) {
+  constexpr double kMostNoise_px = 0.25;
   return trial.model_error == 0 && !trial.fault && trial.is_goal_in_range && !trial.HasFriction() &&
-         trial.options.step.law.legs.all();
+         trial.options.step.law.legs.all() && trial.simulation.edge_noise_px <= kMostNoise_px;
 }
 
 // How far it is from the goal: what is left of each reading, and the edges of all legs without noise.
@@ -317,10 +319,15 @@ TEST(SafetyStatistics, NoRunCrossesALimitAndEachEndsWithItsReason) {
     if (!IsUnhindered(outcome.trial)) continue;
     ++unhindered;
     converged += outcome.run.end == ServoEnd::kConverged;
-    if (outcome.run.end != ServoEnd::kConverged) std::cout << text << std::endl;
+    if (outcome.run.end != ServoEnd::kConverged)
+      std::cout << text << std::endl;
+    else if (outcome.trial.options.step.law.mode == ControlMode::kEdges)
+      EXPECT_LE(LeftOf(outcome).edges_px,
+                DefaultTolerance(ControlMode::kEdges) + 3 * outcome.trial.simulation.edge_noise_px)
+          << text;
   }
-  // What is left are views in which legs hide each other, and strong noise on few edges.
-  EXPECT_GE(converged, 0.97 * unhindered);
+  EXPECT_GE(unhindered, 200);
+  EXPECT_GE(converged, 0.98 * unhindered);
 }
 
 }  // namespace

@@ -70,6 +70,8 @@ ControlLawOptions PaperLaw(ControlMode mode) {
   law.mode = mode;
   law.direction_source = DirectionSource::kEdges;
   law.is_weighted = false;
+  law.most_motion_sigma = 1e3;  // the paper asks for no certainty
+  law.least_conditioning = 0;
   return law;
 }
 

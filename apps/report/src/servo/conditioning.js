@@ -13,9 +13,11 @@ const PANELS = [
       "Smallest over largest singular value of the edges' interaction with the platform's motion; 1 is best.",
   },
   {
-    name: "smallest_singular_value",
-    title: "Smallest singular value of what is seen",
-    caption: "Near zero there is a motion of the platform that what is seen hardly shows.",
+    name: "motion_sigma_m",
+    title: "σ of the motion told worst",
+    caption: "What the noise of one image leaves of the platform's least certain motion, rotations at its radius.",
+    unit: "mm",
+    scale: 1e3,
   },
   {
     name: "robot_conditioning",
@@ -44,13 +46,15 @@ export function renderConditioning(section, run) {
   );
 }
 
-const draw = ({ name, title, caption, domain, ticks }, run) =>
+const scaled = (scale) => (value) => (isNumber(value) ? scale * value : value);
+
+const draw = ({ name, title, caption, unit = "", scale = 1, domain, ticks }, run) =>
   figure(
     caption,
     html("h4", null, title),
-    timePlot(run, [{ label: title, values: run.data.cycles[name], color: COLOR.first }], {
+    timePlot(run, [{ label: title, values: run.data.cycles[name].map(scaled(scale)), color: COLOR.first }], {
       description: `${title} over time`,
-      unit: "",
+      unit,
       height: HEIGHT,
       zero: true,
       domain,

@@ -31,7 +31,7 @@ function keyFigures(document) {
     ["Deviation of the path", figure("path.deviation_m"), "largest, from the straight line"],
     ["Fastest leg", figure("max_joint_speed_m_per_s"), "largest speed commanded"],
     ["Conditioning of what is seen", figure("min_conditioning"), "smallest; 1 is best"],
-    ["Smallest singular value", figure("min_singular_value"), "of what is seen, at its smallest"],
+    ["σ of the motion told worst", figure("max_motion_sigma_m"), "by one image, at its largest"],
     ["Conditioning of the robot", figure("min_robot_conditioning"), "smallest; 1 is best"],
     ["Edges to command", figure("compute_time_s.p99"), "99 % of the cycles took no longer"],
     ["Image to edges", figure("look_time_s.p99"), "99 % of the cycles took no longer"],
