@@ -319,12 +319,14 @@ TEST(SafetyStatistics, NoRunCrossesALimitAndEachEndsWithItsReason) {
     if (!IsUnhindered(outcome.trial)) continue;
     ++unhindered;
     converged += outcome.run.end == ServoEnd::kConverged;
-    if (outcome.run.end != ServoEnd::kConverged)
+    if (outcome.run.end != ServoEnd::kConverged) {
       std::cout << text << std::endl;
-    else if (outcome.trial.options.step.law.mode == ControlMode::kEdges)
-      EXPECT_LE(LeftOf(outcome).edges_px,
-                DefaultTolerance(ControlMode::kEdges) + 3 * outcome.trial.simulation.edge_noise_px)
-          << text;
+    } else if (outcome.trial.options.step.law.mode == ControlMode::kEdges) {
+      // All edges: those that were hidden may be farther off than those that it converged by.
+      const double most_px =
+          3 * (DefaultTolerance(ControlMode::kEdges) + outcome.trial.simulation.edge_noise_px);
+      EXPECT_LE(LeftOf(outcome).edges_px, most_px) << text;
+    }
   }
   EXPECT_GE(unhindered, 200);
   EXPECT_GE(converged, 0.98 * unhindered);
