@@ -1,5 +1,5 @@
 // The robot at the selected pose, with its magnified errors at the platform.
-import { append, html } from "../shared/dom.js";
+import { append, checkbox, html } from "../shared/dom.js";
 import { sentence, tick } from "../shared/format.js";
 import { paintAxes, paintGhost, paintNumbers, paintRobot } from "../shared/paint_robot.js";
 import { movedBy, robotAt, twistOf } from "../shared/robot_geometry.js";
@@ -47,19 +47,11 @@ export class RobotView {
   }
 
   toolbar() {
-    const toggle = (name, label) => {
-      const box = html("input", {
-        type: "checkbox",
-        name,
-        checked: this.shown[name],
-        onchange: () => {
-          this.shown[name] = box.checked;
-          this.describe();
-          this.turnable.redraw();
-        },
-      });
-      return html("label", null, box, ` ${label}`);
+    const redraw = () => {
+      this.describe();
+      this.turnable.redraw();
     };
+    const toggle = (name, label) => checkbox(this.shown, name, label, redraw);
     return html(
       "div",
       { class: "toolbar" },

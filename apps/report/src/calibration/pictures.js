@@ -1,7 +1,7 @@
 // The picture viewer: choose an image, see found points and predicted outlines over it, zoom and pan.
 import { append, html, muted } from "../shared/dom.js";
 import { significant, withUnit } from "../shared/format.js";
-import { zoomablePicture } from "../shared/zoomable_picture.js";
+import { onPictureKey, zoomablePicture } from "../shared/zoomable_picture.js";
 import { edgesOf, imagesOf, isOutlier, magnitudeQuantile, usedEdges, usedSamples } from "./observations.js";
 import { overlay, residualColor } from "./overlay.js";
 import { pictureAddress } from "./picture_links.js";
@@ -48,7 +48,7 @@ class Viewer {
     this.details = html("div");
     this.element = html(
       "div",
-      { class: "viewer", onkeydown: (event) => this.onKey(event) },
+      { class: "viewer", onkeydown: (event) => onPictureKey(event, this.zoom, (by) => this.step(by)) },
       this.sidebar(),
       html("div", null, this.toolbar(), this.caption, this.stage, this.legend()),
       this.details,
@@ -193,21 +193,6 @@ class Viewer {
     this.overlayPlace.replaceChildren(
       overlay(this.images[this.index], { limit: this.limit, factor: this.factor }),
     );
-  }
-
-  onKey(event) {
-    if (event.target.matches("input, select") || event.ctrlKey || event.altKey || event.metaKey) return;
-    const actions = {
-      ArrowLeft: () => this.step(-1),
-      ArrowRight: () => this.step(1),
-      "+": () => this.zoom.zoomIn(),
-      "=": () => this.zoom.zoomIn(),
-      "-": () => this.zoom.zoomOut(),
-      0: () => this.zoom.reset(),
-    };
-    if (!actions[event.key]) return;
-    actions[event.key]();
-    event.preventDefault();
   }
 }
 

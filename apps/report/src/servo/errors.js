@@ -1,6 +1,6 @@
 // The errors over time: the controlled one, those that nothing controls, and how fast they fall.
 import { copyable } from "../shared/copy_table.js";
-import { append, figure, html, muted, table } from "../shared/dom.js";
+import { append, checkbox, figure, html, muted, table } from "../shared/dom.js";
 import { MISSING, isNumber, significant } from "../shared/format.js";
 import { COLOR, key } from "../shared/plots.js";
 import { errorSeries, exponentialRate } from "./error_series.js";
@@ -31,18 +31,7 @@ class ErrorPlots {
 
   toolbar() {
     const withSingles = this.panels.flatMap(({ key: name, curves }) => (curves[0].single ? [name] : []));
-    const toggle = (name, label) => {
-      const box = html("input", {
-        type: "checkbox",
-        name,
-        checked: this.shown[name],
-        onchange: () => {
-          this.shown[name] = box.checked;
-          this.redraw();
-        },
-      });
-      return html("label", null, box, label);
-    };
+    const toggle = (name, label) => checkbox(this.shown, name, label, () => this.redraw());
     return html(
       "div",
       { class: "toolbar" },

@@ -1,7 +1,7 @@
 // The images of a run with the edges as they were and as they should be.
 import { append, html, muted, svg } from "../shared/dom.js";
 import { capitalized, isNumber, plural, significant } from "../shared/format.js";
-import { zoomablePicture } from "../shared/zoomable_picture.js";
+import { onPictureKey, zoomablePicture } from "../shared/zoomable_picture.js";
 
 export const hasPictures = ({ pictures }) => pictures?.length > 0;
 
@@ -23,7 +23,7 @@ class Viewer {
     );
     this.element = html(
       "div",
-      { class: "servo-viewer", onkeydown: (event) => this.onKey(event) },
+      { class: "servo-viewer", onkeydown: (event) => onPictureKey(event, this.zoom, (by) => this.step(by)) },
       html(
         "div",
         { class: "toolbar" },
@@ -71,23 +71,9 @@ class Viewer {
     this.caption.replaceChildren(...captionOf(picture, index));
   }
 
-  onKey(event) {
-    if (event.target.matches("input") || event.ctrlKey || event.altKey || event.metaKey) return;
-    const step = (by) => {
-      this.show(Math.max(0, Math.min(this.pictures.length - 1, this.index + by)));
-      this.stage.firstElementChild.focus({ preventScroll: true });
-    };
-    const actions = {
-      ArrowLeft: () => step(-1),
-      ArrowRight: () => step(1),
-      "+": () => this.zoom.zoomIn(),
-      "=": () => this.zoom.zoomIn(),
-      "-": () => this.zoom.zoomOut(),
-      0: () => this.zoom.reset(),
-    };
-    if (!actions[event.key]) return;
-    actions[event.key]();
-    event.preventDefault();
+  step(by) {
+    this.show(Math.max(0, Math.min(this.pictures.length - 1, this.index + by)));
+    this.stage.firstElementChild.focus({ preventScroll: true });
   }
 }
 

@@ -23,6 +23,20 @@ export const html = (tag, attributes, ...children) => fill(document.createElemen
 export const svg = (tag, attributes, ...children) =>
   fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 
+// A box to tick for `name` in `shown`; changed(): to draw again.
+export function checkbox(shown, name, label, changed) {
+  const box = html("input", {
+    type: "checkbox",
+    name,
+    checked: shown[name],
+    onchange: () => {
+      shown[name] = box.checked;
+      changed();
+    },
+  });
+  return html("label", null, box, ` ${label}`);
+}
+
 export const paragraph = (...children) => html("p", null, ...children);
 export const muted = (...children) => html("p", { class: "muted" }, ...children);
 

@@ -37,6 +37,22 @@ export function zoomablePicture(address, size, description, stage) {
   return { picture, over, zoom };
 }
 
+// What keys do over such a picture: arrows step(by) to the next or the one before, + - 0 zoom.
+export function onPictureKey(event, zoom, step) {
+  if (event.target.matches("input, select") || event.ctrlKey || event.altKey || event.metaKey) return;
+  const actions = {
+    ArrowLeft: () => step(-1),
+    ArrowRight: () => step(1),
+    "+": () => zoom.zoomIn(),
+    "=": () => zoom.zoomIn(),
+    "-": () => zoom.zoomOut(),
+    0: () => zoom.reset(),
+  };
+  if (!actions[event.key]) return;
+  actions[event.key]();
+  event.preventDefault();
+}
+
 function background(address, { width, height }) {
   if (address)
     return svg("image", { href: address, x: -0.5, y: -0.5, width, height, preserveAspectRatio: "none" });
