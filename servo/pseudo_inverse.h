@@ -12,6 +12,14 @@ inline constexpr int kMostTaskRows = 24;
 using TaskMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::ColMajor, kMostTaskRows, 6>;
 using TaskVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostTaskRows, 1>;
 
+// Of a square matrix: singular values, descending, each to the rounding of the largest, and the right
+// singular vectors in the same order.
+struct RightSingular {
+  Vector6d values;
+  Matrix6d vectors;
+};
+RightSingular RightSingularOf(const Matrix6d& matrix);
+
 struct PseudoInverseOptions {
   // Both are shares of the largest singular value. Directions with less than `truncation` are left alone;
   // each other answers s / (s^2 + damping^2) instead of 1 / s.

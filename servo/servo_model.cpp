@@ -1,8 +1,9 @@
 #include "servo/servo_model.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <stdexcept>
+
+#include "servo/pseudo_inverse.h"
 
 namespace legible {
 
@@ -30,9 +31,9 @@ Vector6d RotationsByRadius(const ServoModel& model) {
 }
 
 Vector6d RobotSingularValues(const ServoModel& model, const Rigid3& base_from_platform) {
-  const Matrix6d jacobian =
-      InverseJacobian(model.robot, base_from_platform) * RotationsByRadius(model).asDiagonal();
-  return Eigen::JacobiSVD<Matrix6d>(jacobian).singularValues();
+  return RightSingularOf(InverseJacobian(model.robot, base_from_platform) *
+                         RotationsByRadius(model).asDiagonal())
+      .values;
 }
 
 Vector6d LegLengths(const GoughStewart& robot, const Vector6d& joint_readings_m) {
