@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "servo/commanded_way.h"
+
 namespace legible {
 
 void JointFollowing::Note(double time_s, const Vector6d& commanded_way_m, const Vector6d& readings_m) {
@@ -36,7 +38,7 @@ std::optional<JointFollowing::Behind> JointFollowing::OfJoint(int joint, double 
     if (behind ? for_s >= behind->for_s + kSettled_s : for_s > kLongest_s) break;
     if (behind || for_s < kLeast_s || commanded_m < way_m) continue;
     const double made_m = std::abs(now.readings_m[joint] - then->readings_m[joint]);
-    if (made_m >= kFollowed * commanded_m) return std::nullopt;
+    if (made_m >= kFollowedShare * commanded_m) return std::nullopt;
     behind = Behind{joint, commanded_m, made_m, for_s, has_not_changed};
   }
   return behind;

@@ -19,16 +19,16 @@ class JointFollowing {
     bool has_not_changed = false;  // its reading, to the last bit
   };
   // The joint that made least of what was commanded: within the last kLongest_s at least way_m, all in one
-  // direction (a lag hides what goes to and fro), of which its reading shows less than a fifth, either way.
-  // Slower commands say nothing here: friction may hold a joint for a while.
+  // direction (a lag hides what goes to and fro), of which its reading shows less than kFollowedShare
+  // (servo/commanded_way.h), either way. Slower commands say nothing here: friction may hold a joint for a
+  // while.
   std::optional<Behind> Farthest(double way_m) const;
 
  private:
   static constexpr double kLongest_s = 0.5;   // longest that is looked back
   static constexpr double kLeast_s = 0.25;    // shortest: drives answer with a lag
   static constexpr double kSettled_s = 0.15;  // before that, in which it was not commanded the other way
-  static constexpr double kFollowed = 0.2;
-  static constexpr double kToAndFro = 1.1;  // most whole way over the way that is left of it
+  static constexpr double kToAndFro = 1.1;    // most whole way over the way that is left of it
 
   struct Moment {
     double time_s;
