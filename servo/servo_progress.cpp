@@ -21,10 +21,12 @@ std::optional<Verdict> ServoProgress::Judge(const CycleInput& input, const Servo
   const Edges edges = EdgesBehind(input);
   double& smallest = smallest_errors_.try_emplace(edges, error).first->second;
   smallest = std::min(smallest, error);
-  if (Grows(input, step, smallest))
+  if (Grows(input, step, smallest)) {
+    const std::string limits = DescribeLimits(step);
     return Ended(ServoEnd::kErrorGrows,
-                 fmt::format("the error grows: {} after {} at its smallest", ErrorText(law_.mode, error),
-                             ErrorText(law_.mode, smallest)));
+                 fmt::format("the error grows: {} after {} at its smallest{}", ErrorText(law_.mode, error),
+                             ErrorText(law_.mode, smallest), limits.empty() ? "" : "; " + limits));
+  }
   return stall_.Judge(input, edges, step, answers);
 }
 

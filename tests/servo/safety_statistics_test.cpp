@@ -186,6 +186,7 @@ bool IsHonest(const Outcome& outcome) {
     case ServoEnd::kNoPose:
       return is_wrong || has_noise;
     case ServoEnd::kErrorGrows:
+      return is_wrong || Contains(reason, "held back at");
     case ServoEnd::kRobotSingular:
       return is_wrong;
     case ServoEnd::kTooFewEdges:
