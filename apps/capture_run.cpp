@@ -71,9 +71,16 @@ class Capturer {
       failures_ = 0;
       return;
     }
-    if (++failures_ >= kMostFailures && run_.reason.empty())
-      run_.reason = fmt::format("{} poses in a row gave no image of use; the last one: {}", failures_,
-                                run_.rejected.back().reason);
+    if (++failures_ >= kMostFailures && run_.reason.empty()) run_.reason = WhyGivenUp();
+  }
+
+  std::string WhyGivenUp() const {
+    return fmt::format(
+        "{} poses in a row gave no image of use; the last one: {}; {}, then go on with --resume", failures_,
+        run_.rejected.back().reason,
+        last_was_looked_at_ ? "see that the legs are lit and in the picture, and that robot and camera are, "
+                              "and stand, as the drawing and the first guess of the camera say"
+                            : "see what keeps the robot from going there or from standing still");
   }
 
   int Count() const { return static_cast<int>(growing_.session().images.size()); }
@@ -167,7 +174,7 @@ class Capturer {
                   true);
     const Sighting sighting = outlook_.Look(target.name, shot.image.image, shot.readings.joint_readings_m);
     times.look_s = watch.Lap();
-    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false, false);
+    if (!sighting.unusable.empty() && !settings_.poses) return Fail(target, sighting.unusable, false, true);
     growing_.Add(target.name, EncodePng(shot.image.image), shot.readings.joint_readings_m);
     times.store_s = watch.Lap();
     last_ = shot;
@@ -201,7 +208,7 @@ class Capturer {
   }
 
   // Returns false, for whoever failed.
-  bool Fail(const Target& target, const std::string& reason, bool is_hopeless, bool for_good = true) {
+  bool Fail(const Target& target, const std::string& reason, bool is_hopeless, bool is_looked_at = false) {
     if (interruption_.HasCome()) {
       End(false, "stopped by the user");
       return false;
@@ -210,7 +217,8 @@ class Capturer {
       End(false, reason);
       return false;
     }
-    outlook_.Reject(target.base_from_platform, for_good);
+    last_was_looked_at_ = is_looked_at;
+    outlook_.Reject(target.base_from_platform, !is_looked_at);
     missing_.push_back(target.name);
     run_.rejected.push_back({target.name, target.base_from_platform, reason});
     listener_.rejected(run_.rejected.back());
@@ -234,7 +242,8 @@ class Capturer {
   JointDriveOptions drive_;
   RestOptions rest_;
   size_t next_pose_ = 0;
-  int failures_ = 0;
+  int failures_ = 0;                 // in a row
+  bool last_was_looked_at_ = false;  // of these: the robot stood there, but its image shows too little
   std::vector<std::string> missing_;
   std::string last_warning_;
   std::optional<ImageAtRest> last_;

@@ -53,24 +53,39 @@ SessionOutlook::SessionOutlook(const Session& session, const OutlookOptions& opt
   }
 }
 
+// The best there is so far.
+RigModel SessionOutlook::Model() const {
+  if (input_.start) return {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
+  return scouted_.value_or(RigModel{input_.drawing, input_.camera, input_.camera_from_base});
+}
+
 Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
                               const Vector6d& joint_readings_m) const {
-  Sighting sighting;
-  RigModel model{input_.drawing, input_.camera, input_.camera_from_base};
-  if (input_.start) {
-    model = {input_.start->robot, input_.start->camera, input_.start->camera_from_base};
-  } else {
-    // A few looks have found the camera nearly; further ones need not search as far, nor go as wrong.
-    const bool is_nearly_found = scouts_.size() >= kScoutsThatFind;
-    if (is_nearly_found) model = Scouted(std::nullopt);
-    const double range_px = TapePoseRange_px(input_.camera) * (is_nearly_found ? kNearlyFound : 1);
-    sighting.rough =
-        Measure(model, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), range_px)).observation;
-    model = Scouted(*sighting.rough);
+  RigModel model = Model();
+  std::optional<ImageObservation> rough;
+  if (!input_.start) {
+    rough = LookRoughly(name, image, joint_readings_m);
+    std::vector<ImageObservation> looks = scouts_;
+    if (looks.size() < kMostScouts) looks.push_back(*rough);
+    // Where it does not fit the others, it is the one that went wrong.
+    if (const auto together = Scouted(std::move(looks)))
+      model = *together;
+    else
+      rough.reset();
   }
   Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
-  fine.rough = std::move(sighting.rough);
+  fine.rough = std::move(rough);
   return fine;
+}
+
+// A few looks have found the camera nearly; further ones need not search as far, nor go as wrong.
+ImageObservation SessionOutlook::LookRoughly(const std::string& name, const GrayImage& image,
+                                             const Vector6d& joint_readings_m) const {
+  const bool is_nearly_found = scouted_ && scouts_.size() >= kScoutsThatFind;
+  const RigModel from =
+      is_nearly_found ? *scouted_ : RigModel{input_.drawing, input_.camera, input_.camera_from_base};
+  const double range_px = TapePoseRange_px(input_.camera) * (is_nearly_found ? kNearlyFound : 1);
+  return Measure(from, name, image, joint_readings_m, FirstLookEdges(LegEdgeOptions(), range_px)).observation;
 }
 
 Sighting SessionOutlook::Measure(const RigModel& model, const std::string& name, const GrayImage& image,
@@ -89,15 +104,13 @@ Sighting SessionOutlook::Measure(const RigModel& model, const std::string& name,
   return sighting;
 }
 
-// The model that the first looks at all images so far, and maybe at one more, lead to; else the drawing's.
-RigModel SessionOutlook::Scouted(const std::optional<ImageObservation>& one_more) const {
+// The model that first looks lead to; nothing where they do not agree on one.
+std::optional<RigModel> SessionOutlook::Scouted(std::vector<ImageObservation> looks) const {
   LegCalibrationInput input = input_;
-  input.images = scouts_;
-  if (one_more && input.images.size() < kMostScouts) input.images.push_back(*one_more);
+  input.images = std::move(looks);
   const LegCalibration found = FirstLook(std::move(input), HeldParameters(), options_.threads);
-  if (found.status != CalibrationStatus::kConverged)
-    return {input_.drawing, input_.camera, input_.camera_from_base};
-  return {found.robot, found.camera, found.camera_from_base};
+  if (found.status != CalibrationStatus::kConverged) return std::nullopt;
+  return RigModel{found.robot, found.camera, found.camera_from_base};
 }
 
 void SessionOutlook::Add(const Session& session, const Sighting& sighting) {
@@ -113,7 +126,10 @@ void SessionOutlook::Reject(const Rigid3& base_from_platform, bool for_good) {
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
-  if (sighting.rough && scouts_.size() < kMostScouts) scouts_.push_back(*sighting.rough);
+  if (sighting.rough && scouts_.size() < kMostScouts) {
+    scouts_.push_back(*sighting.rough);
+    scouted_ = Scouted(scouts_);
+  }
   if (sighting.unusable.empty()) {
     observations_.push_back(sighting.observation);
     AddToProposer(sighting.observation);

@@ -22,15 +22,16 @@ struct OutlookOptions {
 // What an image shows of the legs.
 struct Sighting {
   ImageObservation observation;
-  int edges = 0;                          // of twelve, as measured
-  std::string unusable;                   // why the image tells nothing; empty: it does
-  std::optional<ImageObservation> rough;  // of the first look, while no model has been calibrated
+  int edges = 0;         // of twelve, as measured
+  std::string unusable;  // why the image tells nothing; empty: it does
+  // Of the first look, while no model has been calibrated; none where it does not fit the earlier ones.
+  std::optional<ImageObservation> rough;
 };
 
 // Legs are looked for where the model has them: at first by a first look as a calibration takes it, for a
 // camera placed by tape measure; from a few images on by the model that these lead to, which also foretells
-// better. Everything
-// depends on the session's images and their order alone: who goes on later goes on the same.
+// better. Everything depends on the session's images and their order alone: who goes on later goes on the
+// same.
 class SessionOutlook {
  public:
   // With the images that there are already, which are read. Throws std::invalid_argument as PoseProposer.
@@ -56,7 +57,10 @@ class SessionOutlook {
   void Propose(std::vector<ImageObservation> images);
   Sighting Measure(const RigModel& model, const std::string& name, const GrayImage& image,
                    const Vector6d& joint_readings_m, const LegEdgeOptions& options) const;
-  RigModel Scouted(const std::optional<ImageObservation>& one_more) const;
+  RigModel Model() const;
+  ImageObservation LookRoughly(const std::string& name, const GrayImage& image,
+                               const Vector6d& joint_readings_m) const;
+  std::optional<RigModel> Scouted(std::vector<ImageObservation> looks) const;
   bool Calibrate(const Session& session, size_t images);
   void Take(const Sighting& sighting);
   void AddToProposer(const ImageObservation& observation);
@@ -65,6 +69,7 @@ class SessionOutlook {
   LegCalibrationInput input_;  // start: the model
   EdgeNoise noise_;
   std::vector<ImageObservation> scouts_;
+  std::optional<RigModel> scouted_;             // what they lead to
   std::vector<ImageObservation> observations_;  // by first looks
   std::vector<Rigid3> rejected_, rejected_for_now_;
   std::string trouble_;

@@ -10,6 +10,7 @@ namespace legible {
 namespace {
 
 constexpr double kBin_px = 0.5, kStretch_px = 18;
+constexpr double kRim_px = 2;          // of the window, in which no step is told from its neighbours
 constexpr double kTolerance_px = 0.9;  // of a stretch from the curve through the others
 constexpr double kBendStep_px = 3;
 constexpr int kFewestPlaces = 3;
@@ -120,9 +121,11 @@ RoughCurve Settled(RoughCurve curve, const std::vector<RoughPlace>& places) {
 
 std::optional<RoughTrace> TraceRoughly(const GrayImage& image, const PredictedEdge& edge,
                                        const RoughTraceOptions& options) {
-  const double reach = options.search_px + 2;
-  const EdgeBand band = CollectBand(image, edge.points, reach, reach);
-  const BinGrid grid{reach, reach, kBin_px};
+  // Beyond the leg's axis lies its other edge, which may be the stronger one.
+  const double outside_px = options.search_px + kRim_px;
+  const double inside_px = std::min(options.search_px, edge.half_width_px) + kRim_px;
+  const EdgeBand band = CollectBand(image, edge.points, outside_px, inside_px);
+  const BinGrid grid{outside_px, inside_px, kBin_px};
   std::vector<RoughPlace> places;
   for (const auto& [first, last] : Stretches(band, kStretch_px, options.step_px)) {
     const BandBins bins = BinBand(band, first, last, grid);

@@ -12,9 +12,10 @@
 namespace legible {
 
 struct RoughTraceOptions {
-  double search_px = 5;  // how far from the prediction an edge is looked for
-  double bend_px = 0;    // by how much it may bend from it (a quarter of that in the middle)
-  double step_px = 6;    // between the prediction's points
+  // How far from the prediction an edge is looked for; into the leg no farther than to its axis.
+  double search_px = 5;
+  double bend_px = 0;  // by how much it may bend from it (a quarter of that in the middle)
+  double step_px = 6;  // between the prediction's points
 };
 
 struct RoughTrace {

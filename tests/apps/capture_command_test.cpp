@@ -11,6 +11,7 @@ namespace legible {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
@@ -142,8 +143,22 @@ TEST_F(Capturing, PassesOverPosesThatShowNothingAndGivesUpAfterFive) {
   const json document = CaptureJson({}, kExitNoResult);
   EXPECT_EQ(document.at("images"), 0);
   EXPECT_EQ(document.at("rejected").size(), 5u);
-  EXPECT_THAT(document.at("reason"), HasSubstr("5 poses in a row gave no image of use"));
+  EXPECT_THAT(document.at("reason"),
+              AllOf(HasSubstr("5 poses in a row gave no image of use"),
+                    HasSubstr("see that the legs are lit"), HasSubstr("go on with --resume")));
   EXPECT_THAT(folder_.Names(), ElementsAre("rig"));
+}
+
+// Legs are thinner there than the first look's search is wide.
+TEST_F(Capturing, FindsTheLegsInEachProposedPoseInSmallImagesToo) {
+  for (const int seed : {1, 4, 10, 13}) {
+    SCOPED_TRACE(seed);
+    MakeRig(640, seed);
+    const json document = CaptureJson({"--count", "6", "--seed", std::to_string(seed)}, kExitSuccess);
+    EXPECT_EQ(document.at("images"), 6);
+    EXPECT_EQ(document.at("rejected"), json::array());
+    std::filesystem::remove_all(session());
+  }
 }
 
 TEST_F(Capturing, SaysThatFramesAreFrozen) {

@@ -14,9 +14,13 @@ namespace legible {
 // A folder with a rig in `rig`: the desktop hexapod, its images `width` pixels wide.
 class RigOnDisk : public testing::Test {
  protected:
-  explicit RigOnDisk(int width) {
-    const ProgramRun run =
-        RunLegible({"simulate", "--images", "0", "--width", std::to_string(width), "--out", rig().string()});
+  explicit RigOnDisk(int width) { MakeRig(width, 1); }
+
+  // In place of the one that is there.
+  void MakeRig(int width, int seed) const {
+    std::filesystem::remove_all(rig());
+    const ProgramRun run = RunLegible({"simulate", "--images", "0", "--width", std::to_string(width),
+                                       "--seed", std::to_string(seed), "--out", rig().string()});
     if (run.exit_code != kExitSuccess) throw std::runtime_error(run.err);
   }
 
