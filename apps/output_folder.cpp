@@ -98,6 +98,7 @@ fs::path MakeNumberedFolder(const fs::path& folder, const std::string& prefix) {
 void MoveTogether(const fs::path& from, const fs::path& folder, const std::vector<std::string>& names) {
   OrInputError(folder, "enough room", [&] {
     RemoveAbandonedStaging(folder);
+    fs::remove_all(folder / names.back());
     MoveResults(from, folder, names);
     fs::remove_all(from);
   });

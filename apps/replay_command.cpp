@@ -130,6 +130,10 @@ const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
 int RunReplay(const ReplaySettings& settings, const Console& console) {
   DemandWholeLog(settings.log);
   const Comparison comparison = Replay(ReadServoLog(settings.log));
+  for (const std::filesystem::path& unfinished : UnfinishedLogs(settings.log))
+    console.err << fmt::format(
+        "legible: warning: {} is the log of another servo, which was cut off: replay that too\n",
+        unfinished.string());
   console.out << (settings.prints_json ? JsonText(ComparisonJson(comparison)) : ComparisonText(comparison));
   if (comparison.IsSame()) return kExitSuccess;
   console.err << "legible: the law commands other speeds than the log has, or ends otherwise\n";

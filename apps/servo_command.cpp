@@ -19,12 +19,12 @@
 namespace legible {
 namespace {
 
-const std::vector<std::string> kLogFiles = {"result.json", "setup.json", "cycles.csv", "edges.csv",
-                                            "report.html"};
+const std::vector<std::string> kLogFiles = {"setup.json", "cycles.csv", "edges.csv", "report.html",
+                                            "result.json"};
 
 std::vector<std::string> AllOfALog() {
-  std::vector<std::string> names = kLogFiles;
-  names.emplace_back(kFrameFolder);
+  std::vector<std::string> names = {kFrameFolder};
+  names.insert(names.end(), kLogFiles.begin(), kLogFiles.end());
   return names;
 }
 

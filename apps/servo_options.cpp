@@ -104,7 +104,8 @@ void AddLawOptions(CLI::App& command, ServoSettings& settings) {
   AddText(
       command, "--truncation", "SHARE",
       [&law](const std::string& text) { law.inverse.truncation = ParsePositive(text); },
-      "Leaves out what has a smaller singular value than this\nshare of the largest");
+      "Leaves out what has a smaller singular value than this\nshare of the largest; what is seen has to be "
+      "certain\nenough all the same");
 }
 
 void AddCertaintyOptions(CLI::App& command, ControlLawOptions& law) {

@@ -136,8 +136,9 @@ class Recorder {
 
   void Take(ServoCycle cycle) {
     if (images_) cycle.look_s = images_->track_s();  // without the time that the picture took to come
-    finished_.log.cycles.push_back({cycle, TruePose()});
-    writer_.Add(finished_.log.cycles.back());
+    LoggedCycle logged{cycle, TruePose()};
+    writer_.Add(logged);
+    finished_.log.cycles.push_back(std::move(logged));
     if (finished_.log.cycles.size() == 1) Keep("start");
     if (images_ && frame_folder_ && images_->image().time_s != last_frame_s_) {
       last_frame_s_ = images_->image().time_s;

@@ -1,11 +1,14 @@
 #include "apps/servo_setup_json.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "apps/calibrate_settings.h"
 #include "apps/json_text.h"
+#include "apps/program.h"
 
 namespace legible {
 namespace {
@@ -279,8 +282,11 @@ ordered_json SetupToJson(const ServoSetup& setup) {
 }
 
 ServoSetup SetupFromJson(const ordered_json& document) {
-  if (document.at("schema").get<int>() != kServoLogSchema)
-    throw std::invalid_argument("a schema that is not known");
+  if (const int schema = document.at("schema").get<int>(); schema != kServoLogSchema)
+    throw std::invalid_argument(
+        fmt::format("schema {}, and this program, {}, knows schema {}: replay it by the "
+                    "program that wrote it",
+                    schema, ProgramVersion(), kServoLogSchema));
   ServoSetup setup;
   setup.provenance = document.at("provenance").get<std::map<std::string, std::string>>();
   setup.period_s = document.at("period_s").get<double>();

@@ -7,7 +7,7 @@
 
 namespace legible {
 
-inline constexpr int kServoLogSchema = 1;
+inline constexpr int kServoLogSchema = 2;
 
 nlohmann::ordered_json SetupToJson(const ServoSetup& setup);
 

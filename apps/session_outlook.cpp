@@ -126,7 +126,7 @@ void SessionOutlook::Reject(const Rigid3& base_from_platform, bool for_good) {
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
-  if (sighting.rough && scouts_.size() < kMostScouts) {
+  if (sighting.rough && sighting.unusable.empty() && scouts_.size() < kMostScouts) {
     scouts_.push_back(*sighting.rough);
     scouted_ = Scouted(scouts_);
   }

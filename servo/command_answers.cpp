@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "servo/duration.h"
 #include "servo/edge_motion.h"
 
@@ -21,7 +23,9 @@ CommandAnswers::CommandAnswers(const ControlLawOptions& law, const SupervisorOpt
 
 void CommandAnswers::Note(const CycleInput& input, const Vector6d& commanded_m_per_s) {
   if (newest_) {
-    const Vector6d way_m = (input.time_s - newest_->time_s) * commanded_m_per_s;
+    // No command holds longer.
+    const double held_s = std::min(input.time_s - newest_->time_s, Rig::kCommandHolds_s);
+    const Vector6d way_m = held_s * commanded_m_per_s;
     commanded_.Add(input.time_s, way_m);
     way_since_readings_m_ += way_m;
     NoteReadings(input, commanded_m_per_s);

@@ -13,9 +13,9 @@ struct JointLimitOptions {
   double range_margin_m = 5e-4;  // that the readings keep from the ends of joint_range_m
   // A joint may go no faster than it would need to reach its margin in this time. It comes to rest without
   // passing the margin if this is at least four times the drives' lag and the control period together. A
-  // command that nobody renews leads no joint past it either, if this is at least as long as a command holds,
-  // and longer by the drives' lag and the age of what the command was computed from: 50 ms are left for
-  // these.
+  // command that nobody renews leads it at most by (hold + lag + age and delay) * speed / this past where it
+  // was measured: with a lag of 40 ms, readings 20 ms old and 10 ms to the drives 0.5 mm past the margin at
+  // 50 mm/s. Slower links and faster joints need more margin.
   double look_ahead_s = Rig::kCommandHolds_s + 0.05;
 
   void Check() const;  // throws std::invalid_argument

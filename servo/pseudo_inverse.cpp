@@ -8,7 +8,8 @@
 namespace legible {
 
 // A third of the time of a singular value decomposition by Jacobi rotations. The eigenvalues of M^T M alone
-// would have lost half of the digits; what M makes of the eigenvectors has not.
+// would have lost half of the digits; what M makes of the eigenvectors has not. Solutions lose the condition
+// number's square in rounding: 1e-8 at the worst conditioning that a law moves on.
 RightSingular RightSingularOf(const Matrix6d& matrix) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(matrix.transpose() * matrix);
   RightSingular singular;

@@ -12,8 +12,8 @@ inline constexpr int kMostTaskRows = 24;
 using TaskMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::ColMajor, kMostTaskRows, 6>;
 using TaskVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostTaskRows, 1>;
 
-// Of a square matrix: singular values, descending, each to the rounding of the largest, and the right
-// singular vectors in the same order.
+// Of a square matrix: singular values, descending, and the right singular vectors in the same order. Values
+// are exact to the rounding of the largest, but for those that lie below 1e-8 of it together with others.
 struct RightSingular {
   Vector6d values;
   Matrix6d vectors;

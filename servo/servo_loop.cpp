@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/stopwatch.h"
@@ -90,6 +91,8 @@ ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, con
   try {
     take(LookFirst(rig, source, controller, options));
     const double start_s = rig.Now();
+    double late_s =
+        0;  // what cycles that took longer than a period have cost: it is not made up for in a burst
     Vector6d commanded = Vector6d::Zero();
     while (run.end == ServoEnd::kRunning) {
       const ServoCycle cycle = RunCycle(rig, source, controller, commanded);
@@ -104,7 +107,10 @@ ServoRun RunServo(Rig& rig, EdgeSource& source, ServoController& controller, con
       record(cycle);
       if (run.end == ServoEnd::kRunning && options.is_stopped())
         take(controller.End(ServoEnd::kStoppedByUser, kStoppedByUser));
-      if (run.end == ServoEnd::kRunning) rig.WaitUntil(start_s + run.cycles * options.period_s);
+      if (run.end != ServoEnd::kRunning) break;
+      const double next_s = start_s + run.cycles * options.period_s;
+      late_s = std::max(late_s, rig.Now() - next_s);
+      rig.WaitUntil(next_s + late_s);
     }
   } catch (const RigError& error) {
     take(controller.End(ServoEnd::kLinkLost, std::string("the rig does not answer: ") + error.what()));

@@ -16,30 +16,6 @@ double FactorNear(double times_the_limit, double slow) {
   return times_the_limit > 1 ? std::min((times_the_limit - 1) / (slow - 1), 1.0) : 0;
 }
 
-// Whether the speeds lead the robot to a better conditioning: out of a singularity.
-bool LeadsOut(const ServoModel& model, const ServoStep& step) {
-  constexpr double kAhead = 1e-4;  // m or rad: enough to tell
-  const Rigid3& pose = step.law.base_from_platform;
-  const Vector6d twist = InverseJacobian(model.robot, pose).partialPivLu().solve(step.joint_speeds_m_per_s);
-  if (!(twist.norm() > 0)) return false;
-  const Vector6d ahead = RobotSingularValues(model, Displaced(pose, kAhead * twist.normalized()));
-  return ahead[5] / ahead[0] > step.law.robot_conditioning;
-}
-
-void SlowNearSingularity(const ServoModel& model, const ServoStepOptions& options, ServoStep& step) {
-  const LawResult& law = step.law;
-  const double slow = options.slow_conditioning;
-  double robot = FactorNear(law.robot_conditioning / options.law.least_robot_conditioning, slow);
-  if (robot < 1 && LeadsOut(model, step)) robot = 1;
-  const double sight = LooksAtImages(options.law)
-                           ? std::min(FactorNear(law.Conditioning() / options.law.least_conditioning, slow),
-                                      std::min(law.most_motion_sigma_m / (slow * law.motion_sigma_m), 1.0))
-                           : 1;
-  step.singularity_factor = std::min(robot, sight);
-  step.is_robot_near_singularity = robot < sight;
-  step.joint_speeds_m_per_s *= step.singularity_factor;
-}
-
 // Nearest to the wanted speeds within the bounds, and which joints these hold.
 void HoldWithin(const SpeedBounds& bounds, const Vector6d& wanted, ServoStep& step) {
   Vector6d& speeds = step.joint_speeds_m_per_s;
@@ -84,6 +60,36 @@ void KeepLimits(const ServoModel& model, const LawInput& input, const JointLimit
       step.joint_speeds_m_per_s.cwiseMax(-limits.speed_limit_m_per_s).cwiseMin(limits.speed_limit_m_per_s);
 }
 
+// Whether the speeds lead the robot to a better conditioning: out of a singularity.
+bool LeadsOut(const ServoModel& model, const ServoStep& step) {
+  constexpr double kAhead = 1e-4;  // m or rad: enough to tell
+  const Rigid3& pose = step.law.base_from_platform;
+  const Vector6d twist = InverseJacobian(model.robot, pose).partialPivLu().solve(step.joint_speeds_m_per_s);
+  if (!(twist.norm() > 0)) return false;
+  const Vector6d ahead = RobotSingularValues(model, Displaced(pose, kAhead * twist.normalized()));
+  return ahead[5] / ahead[0] > step.law.robot_conditioning;
+}
+
+// Of the speeds within all other limits: a joint that its range holds may turn the motion towards a
+// singularity.
+void SlowDown(const ServoModel& model, const ServoStepOptions& options, ServoStep& step) {
+  const LawResult& law = step.law;
+  const auto slow = [&step](SlowedBy by, double factor) {
+    if (factor >= step.singularity_factor) return;
+    step.singularity_factor = factor;
+    step.slowed_by = by;
+  };
+  const double robot =
+      FactorNear(law.robot_conditioning / options.law.least_robot_conditioning, options.slow_conditioning);
+  if (robot < 1 && !LeadsOut(model, step)) slow(SlowedBy::kRobotSingularity, robot);
+  if (LooksAtImages(options.law)) {
+    slow(SlowedBy::kSightSingularity,
+         FactorNear(law.Conditioning() / options.law.least_conditioning, options.slow_conditioning));
+    slow(SlowedBy::kNoise, law.most_motion_sigma_m / (options.slow_conditioning * law.motion_sigma_m));
+  }
+  step.joint_speeds_m_per_s *= step.singularity_factor;
+}
+
 }  // namespace
 
 void ServoStepOptions::Check() const {
@@ -101,8 +107,8 @@ ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const Law
   if (step.law.status != LawStatus::kOk) return step;
   step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
   step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
-  SlowNearSingularity(model, options, step);
   KeepLimits(model, input, options.limits, step);
+  SlowDown(model, options, step);
   return step;
 }
 
@@ -165,6 +171,25 @@ std::string WhyNoSpeeds(const ServoStep& step, const ControlLawOptions& options)
   throw std::invalid_argument("WhyNoSpeeds: not a LawStatus");
 }
 
+namespace {
+
+std::string SlowedText(const ServoStep& step) {
+  switch (step.slowed_by) {
+    case SlowedBy::kNothing:
+      break;
+    case SlowedBy::kRobotSingularity:
+      return "near a singularity of the robot";
+    case SlowedBy::kSightSingularity:
+      return "near a singularity of what is seen";
+    case SlowedBy::kNoise:
+      return fmt::format("for noise leaves a motion of the platform a σ of {:.2g} mm",
+                         1e3 * step.law.motion_sigma_m);
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string DescribeLimits(const ServoStep& step) {
   std::vector<std::string> clauses;
   if (step.at_shortest.any()) clauses.push_back(LegList(step.at_shortest) + " held back at the shortest");
@@ -173,9 +198,7 @@ std::string DescribeLimits(const ServoStep& step) {
     clauses.push_back(fmt::format("all at {:.0f} % so that leg {} keeps its speed limit",
                                   100 * step.speed_factor, step.fastest_leg + 1));
   if (step.singularity_factor < 1)
-    clauses.push_back(fmt::format("slowed to {:.0f} % near a singularity of {}",
-                                  100 * step.singularity_factor,
-                                  step.is_robot_near_singularity ? "the robot" : "what is seen"));
+    clauses.push_back(fmt::format("slowed to {:.0f} % {}", 100 * step.singularity_factor, SlowedText(step)));
   std::string text;
   for (const std::string& clause : clauses) text += (text.empty() ? "" : "; ") + clause;
   return text;

@@ -22,15 +22,17 @@ struct ServoStepOptions {
   void Check() const;  // throws std::invalid_argument
 };
 
+enum class SlowedBy { kNothing, kRobotSingularity, kSightSingularity, kNoise };
+
 struct ServoStep {
   LawResult law;
   Vector6d joint_speeds_m_per_s = Vector6d::Zero();
   double gain_per_s = 0;
   // What the limits made of the speeds that the law asked for, and why.
-  double speed_factor = 1;                 // one for all joints: the fastest at its limit
-  int fastest_leg = -1;                    // 0-based, where speed_factor < 1
-  double singularity_factor = 1;           // near a singularity
-  bool is_robot_near_singularity = false;  // else what is seen is ill-conditioned, where that factor < 1
+  double speed_factor = 1;        // one for all joints: the fastest at its limit
+  int fastest_leg = -1;           // 0-based, where speed_factor < 1
+  double singularity_factor = 1;  // near a singularity, or where noise leaves a motion uncertain
+  SlowedBy slowed_by = SlowedBy::kNothing;
   std::bitset<kLegCount> at_shortest, at_longest;  // held back by their range
 };
 

@@ -113,7 +113,8 @@ std::bitset<kLegCount> StallWatch::MostlyHeld(std::bitset<kLegCount> Moment::*he
 std::optional<Verdict> StallWatch::JudgeSingularity(const ServoStep& step) const {
   constexpr double kHeldFactor = 0.3;
   if (!(step.singularity_factor < kHeldFactor)) return std::nullopt;
-  return Ended(step.is_robot_near_singularity ? ServoEnd::kRobotSingular : ServoEnd::kIllConditionedEdges,
+  return Ended(step.slowed_by == SlowedBy::kRobotSingularity ? ServoEnd::kRobotSingular
+                                                             : ServoEnd::kIllConditionedEdges,
                fmt::format("{}: {}", LeftText(step), DescribeLimits(step)));
 }
 

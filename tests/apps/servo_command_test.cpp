@@ -303,7 +303,7 @@ TEST_F(ServoCommand, ReplayRefusesADamagedLogNamingFileAndLine) {
   expect_refusal("edges.csv", WithChangedField(edges, "leg", 3, "9"), "not there");
   expect_refusal("edges.csv", WithChangedField(edges, "edge", 3, "1.5"), "not there");
   expect_refusal("setup.json", setup.substr(0, setup.size() / 2), "is no set-up of a servo");
-  expect_refusal("setup.json", Replaced(setup, "\"schema\": 1", "\"schema\": 99"), "schema");
+  expect_refusal("setup.json", Replaced(setup, "\"schema\": 2", "\"schema\": 99"), "knows schema 2");
   ExpectReplaysBitForBit();
   EXPECT_EQ(RunLegible({"replay", Path("nowhere")}).exit_code, kExitBadInput);
 }

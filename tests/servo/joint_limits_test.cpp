@@ -272,10 +272,11 @@ double RobotConditioning(const ServoModel& model, const Rigid3& pose) {
 
 TEST(ServoStep, SlowsDownTowardsASingularityButNotOnTheWayOut) {
   std::mt19937_64 generator = TestGenerator();
-  const ServoScene scene = RandomScene(generator);
-  const Vector6d readings_m = InverseKinematics(scene.model.robot, scene.pose);
-  for (const double way_m : {1e-3, -1e-3}) {
-    const Vector6d way = Vector6d::Constant(way_m);
+  int ways_in = 0, ways_out = 0;
+  for (int n = 0; n < 20; ++n) {
+    const ServoScene scene = RandomScene(generator);
+    const Vector6d readings_m = InverseKinematics(scene.model.robot, scene.pose);
+    const Vector6d way = UniformVector(generator, -1e-3, 1e-3).replicate<2, 1>();
     ServoStepOptions options = JointStep();
     const ServoStep free = StepBy(scene, way, options, {-10, 10});
     EXPECT_EQ(free.singularity_factor, 1);
@@ -288,13 +289,43 @@ TEST(ServoStep, SlowsDownTowardsASingularityButNotOnTheWayOut) {
     if (RobotConditioning(scene.model, ahead) > free.law.robot_conditioning) {
       EXPECT_EQ(near.singularity_factor, 1);
       EXPECT_EQ(near.joint_speeds_m_per_s, free.joint_speeds_m_per_s);
+      ++ways_out;
       continue;
     }
+    ++ways_in;
     EXPECT_NEAR(near.singularity_factor, 0.5, 1e-12);
-    EXPECT_TRUE(near.is_robot_near_singularity);
+    EXPECT_EQ(near.slowed_by, SlowedBy::kRobotSingularity);
     EXPECT_TRUE(AreNear(near.joint_speeds_m_per_s, 0.5 * free.joint_speeds_m_per_s, 1e-15));
     EXPECT_NE(DescribeLimits(near).find("slowed to 50 % near a singularity of the robot"), std::string::npos);
   }
+  EXPECT_GE(ways_in, 3);
+  EXPECT_GE(ways_out, 3);
+}
+
+// A joint that its range holds turns the motion: what counts is where the speeds lead that are sent.
+TEST(ServoStep, SlowsTheSpeedsThatARangeHasTurnedTowardsASingularity) {
+  std::mt19937_64 generator = TestGenerator();
+  int turned = 0;
+  for (int n = 0; n < 200; ++n) {
+    const ServoScene scene = RandomScene(generator);
+    const Vector6d readings_m = InverseKinematics(scene.model.robot, scene.pose);
+    const Vector6d way = UniformVector(generator, -1e-3, 1e-3).replicate<2, 1>();
+    const std::array<double, 2> range_m = {readings_m.minCoeff() - 0.1, readings_m.maxCoeff()};
+    ServoStepOptions options = JointStep();
+    const auto leads_in = [&](const ServoStep& step) {
+      const Vector6d ahead_m = readings_m + 1e-3 * step.joint_speeds_m_per_s;
+      const Rigid3 ahead = ForwardKinematics(scene.model.robot, ahead_m, scene.pose).base_from_platform;
+      return RobotConditioning(scene.model, ahead) < step.law.robot_conditioning;
+    };
+    const ServoStep free = StepBy(scene, way, options, {-10, 10}),
+                    held = StepBy(scene, way, options, range_m);
+    options.law.least_robot_conditioning = free.law.robot_conditioning / 2;
+    const ServoStep slowed = StepBy(scene, way, options, range_m);
+    if (held.joint_speeds_m_per_s.norm() < 1e-6 || leads_in(free) == leads_in(held)) continue;
+    ++turned;
+    EXPECT_EQ(slowed.singularity_factor < 1, leads_in(held));
+  }
+  EXPECT_GE(turned, 3);
 }
 
 TEST(ServoStep, RefusesOptionsOutOfRange) {

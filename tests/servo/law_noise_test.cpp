@@ -90,6 +90,9 @@ TEST(ServoStep, SlowsAsNoiseLeavesAMotionLessCertainAndStopsAtTheLimit) {
     options.law.most_motion_sigma = 1.5 * sigma;
     const double factor = 1.5 / options.slow_conditioning;
     EXPECT_NEAR(step().singularity_factor, factor, 1e-9);
+    EXPECT_EQ(step().slowed_by, SlowedBy::kNoise);
+    EXPECT_THAT(DescribeLimits(step()),
+                testing::HasSubstr("for noise leaves a motion of the platform a σ of"));
     EXPECT_TRUE(AreNear(step().joint_speeds_m_per_s, factor * free.joint_speeds_m_per_s, 1e-12));
     options.law.most_motion_sigma = 0.99 * sigma;
     EXPECT_EQ(step().law.status, LawStatus::kIllConditionedEdges);

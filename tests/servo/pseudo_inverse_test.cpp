@@ -58,6 +58,20 @@ TEST(SolveLeastSquares, IsEigensLeastSquaresSolution) {
   }
 }
 
+TEST(SolveLeastSquares, KeepsEightDigitsWhereAMotionIsHardlyTold) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 20; ++n) {
+    const Problem problem = RandomProblem(12, 3e-5, generator);
+    const LeastSquares found = SolveLeastSquares(problem.matrix, problem.right, {});
+    const Eigen::MatrixXd matrix = problem.matrix;
+    const Vector6d expected =
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(matrix).solve(problem.right);
+    EXPECT_TRUE(AreNear(found.solution, expected, 1e-6 * expected.norm()));
+    EXPECT_TRUE(
+        AreNear(found.singular_values, Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues(), 1e-13));
+  }
+}
+
 TEST(SolveLeastSquares, LeavesDirectionsBelowTheTruncationAlone) {
   std::mt19937_64 generator = TestGenerator();
   for (int n = 0; n < 20; ++n) {

@@ -192,6 +192,8 @@ bool IsHonest(const Outcome& outcome) {
     case ServoEnd::kTooFewEdges:
       return Contains(reason, " not seen") || Contains(reason, "one edge alone");
     case ServoEnd::kIllConditionedEdges:
+      return has_noise || Contains(reason, " not seen") || Contains(reason, "one edge alone") ||
+             !trial.options.step.law.legs.all();
     case ServoEnd::kTimeout:
       return true;
     default:  // what only a fault can cause

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "core/rig/simulated_edges.h"
 #include "core/rig/simulated_rig.h"
@@ -39,7 +40,6 @@ struct Outcome {
   TrueMotion end;  // when nothing coasts any more
   bool hit_end_stop = false, was_too_fast = false;
   double largest_speed_m_per_s = 0;
-  Vector6d closest_m = Vector6d::Ones();  // to the ends of the ranges
 };
 
 bool IsInRange(const GoughStewart& robot, const Vector6d& readings_m) {
@@ -150,6 +150,26 @@ TEST(RunServo, EndsOnEachFaultWithAReasonThatNamesIt) {
 
 TEST(RunServo, NamesLateFramesFromTheFirstOneOn) {
   ExpectEnd({}, {{FaultKind::kFramesLate, 0}, ServoEnd::kStaleImages, "the newest is 0.20 s old"});
+}
+
+// A disk that blocks, for instance, while a cycle is recorded.
+TEST(RunServo, DoesNotMakeUpForALongCycleInABurst) {
+  const Trial trial;
+  const ServoModel model = MakeServoModel(trial.robot, trial.camera, trial.camera_from_base);
+  SimulatedRig rig({trial.robot, trial.camera, trial.camera_from_base}, trial.simulation);
+  SimulatedEdges source(rig);
+  ServoController controller(model, GoalAtPose(model, trial.goal), trial.options);
+  constexpr double kBlocked_s = 0.47;
+  std::vector<double> times_s;
+  const ServoRun run = RunServo(rig, source, controller, trial.loop, [&](const ServoCycle& cycle) {
+    times_s.push_back(cycle.input.time_s);
+    if (times_s.size() == 10) rig.WaitUntil(rig.Now() + kBlocked_s);
+  });
+  EXPECT_EQ(run.end, ServoEnd::kConverged) << run.reason;
+  ASSERT_GT(times_s.size(), 20u);
+  EXPECT_NEAR(times_s[10] - times_s[9], kBlocked_s, 1e-9);
+  for (size_t i = 11; i < times_s.size(); ++i)
+    EXPECT_NEAR(times_s[i] - times_s[i - 1], trial.loop.period_s, 1e-9);
 }
 
 TEST(RunServo, WaitsForTheFirstImage) {
