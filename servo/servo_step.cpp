@@ -70,9 +70,10 @@ bool LeadsOut(const ServoModel& model, const ServoStep& step) {
   return ahead[5] / ahead[0] > step.law.robot_conditioning;
 }
 
-// Of the speeds within all other limits: a joint that its range holds may turn the motion towards a
-// singularity.
-void SlowDown(const ServoModel& model, const ServoStepOptions& options, ServoStep& step) {
+// What leads out is judged by the speeds that would be sent: a joint that its range holds may turn the motion
+// towards a singularity.
+void SlowDown(const ServoModel& model, const LawInput& input, const ServoStepOptions& options,
+              ServoStep& step) {
   const LawResult& law = step.law;
   const auto slow = [&step](SlowedBy by, double factor) {
     if (factor >= step.singularity_factor) return;
@@ -81,7 +82,11 @@ void SlowDown(const ServoModel& model, const ServoStepOptions& options, ServoSte
   };
   const double robot =
       FactorNear(law.robot_conditioning / options.law.least_robot_conditioning, options.slow_conditioning);
-  if (robot < 1 && !LeadsOut(model, step)) slow(SlowedBy::kRobotSingularity, robot);
+  if (robot < 1) {
+    ServoStep sent = step;
+    KeepLimits(model, input, options.limits, sent);
+    if (!LeadsOut(model, sent)) slow(SlowedBy::kRobotSingularity, robot);
+  }
   if (LooksAtImages(options.law)) {
     slow(SlowedBy::kSightSingularity,
          FactorNear(law.Conditioning() / options.law.least_conditioning, options.slow_conditioning));
@@ -107,8 +112,8 @@ ServoStep EvaluateStep(const ServoModel& model, const ServoGoal& goal, const Law
   if (step.law.status != LawStatus::kOk) return step;
   step.gain_per_s = options.gain.At(step.law.to_go_m.cwiseAbs().maxCoeff());
   step.joint_speeds_m_per_s = step.gain_per_s * step.law.to_go_m;
+  SlowDown(model, input, options, step);
   KeepLimits(model, input, options.limits, step);
-  SlowDown(model, options, step);
   return step;
 }
 

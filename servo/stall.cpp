@@ -8,6 +8,11 @@
 #include "servo/error_text.h"
 
 namespace legible {
+namespace {
+
+constexpr double kHeldFactor = 0.3;  // slowed to less near a singularity, a robot is held there
+
+}  // namespace
 
 StallWatch::StallWatch(const ControlLawOptions& law, const SupervisorOptions& options)
     : law_(law), options_(options) {}
@@ -15,9 +20,9 @@ StallWatch::StallWatch(const ControlLawOptions& law, const SupervisorOptions& op
 std::optional<Verdict> StallWatch::Judge(const CycleInput& input, const std::bitset<2 * kLegCount>& edges,
                                          const ServoStep& step, const CommandAnswers& answers) {
   recent_.push_back({input.time_s, edges, step.law.error, step.joint_speeds_m_per_s.cwiseAbs().maxCoeff(),
-                     (step.law.metric * step.law.to_go_m).squaredNorm() / kLegCount, step.speed_factor < 1,
-                     step.at_shortest, step.at_longest, input.readings.joint_readings_m,
-                     answers.CommandedInAll()});
+                     (step.law.metric * step.law.to_go_m).squaredNorm() / kLegCount,
+                     step.speed_factor < 1 && step.singularity_factor >= kHeldFactor, step.at_shortest,
+                     step.at_longest, input.readings.joint_readings_m, answers.CommandedInAll()});
   if (!HasLasted(input.time_s - recent_.front().time_s, options_.stall_s)) return std::nullopt;
   const auto [earlier, later] = Halves();
   const double mean = later.sum / later.count;
@@ -111,7 +116,6 @@ std::bitset<kLegCount> StallWatch::MostlyHeld(std::bitset<kLegCount> Moment::*he
 }
 
 std::optional<Verdict> StallWatch::JudgeSingularity(const ServoStep& step) const {
-  constexpr double kHeldFactor = 0.3;
   if (!(step.singularity_factor < kHeldFactor)) return std::nullopt;
   return Ended(step.slowed_by == SlowedBy::kRobotSingularity ? ServoEnd::kRobotSingular
                                                              : ServoEnd::kIllConditionedEdges,

@@ -20,6 +20,7 @@ namespace {
 constexpr int kRuns = 10000;
 constexpr double kSettling_s = 1.5;  // until nothing coasts any more
 constexpr double kFirstImage_s = 1.04;
+constexpr double kFrozen_s = 5;
 constexpr double kPeriod_s = 0.02;  // of camera and loop
 
 // The rig's images as the model's camera reads them.
@@ -141,8 +142,8 @@ double Patience_s(const ServoTrial& trial) {
       return trial.simulation.edge_noise_px > 0.01 ? stale_s : INFINITY;
     case FaultKind::kLegCovered:
       return trial.options.step.law.legs.count() == 3 ? options.unusable_s + 2 * kPeriod_s : INFINITY;
-    case FaultKind::kReadingsFrozen:
-      return INFINITY;
+    case FaultKind::kReadingsFrozen:  // to be commanded far enough, or to get no nearer
+      return kFrozen_s;
   }
   return INFINITY;
 }
