@@ -130,10 +130,11 @@ const CLI::App* AddReplayCommand(CLI::App& program, ReplaySettings& settings) {
 int RunReplay(const ReplaySettings& settings, const Console& console) {
   DemandWholeLog(settings.log);
   const Comparison comparison = Replay(ReadServoLog(settings.log));
+  std::vector<std::string> warnings;
   for (const std::filesystem::path& unfinished : UnfinishedLogs(settings.log))
-    console.err << fmt::format(
-        "legible: warning: {} is the log of another servo, which was cut off: replay that too\n",
-        unfinished.string());
+    warnings.push_back(fmt::format("{} is the log of another servo, which was cut off: replay that too",
+                                   unfinished.string()));
+  console.err << WarningsText(warnings);
   console.out << (settings.prints_json ? JsonText(ComparisonJson(comparison)) : ComparisonText(comparison));
   if (comparison.IsSame()) return kExitSuccess;
   console.err << "legible: the law commands other speeds than the log has, or ends otherwise\n";

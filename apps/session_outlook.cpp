@@ -61,20 +61,15 @@ RigModel SessionOutlook::Model() const {
 
 Sighting SessionOutlook::Look(const std::string& name, const GrayImage& image,
                               const Vector6d& joint_readings_m) const {
-  RigModel model = Model();
-  std::optional<ImageObservation> rough;
-  if (!input_.start) {
-    rough = LookRoughly(name, image, joint_readings_m);
+  std::optional<Scout> scout;
+  if (!input_.start && scouts_.size() < kMostScouts) {
     std::vector<ImageObservation> looks = scouts_;
-    if (looks.size() < kMostScouts) looks.push_back(*rough);
+    looks.push_back(LookRoughly(name, image, joint_readings_m));
     // Where it does not fit the others, it is the one that went wrong.
-    if (const auto together = Scouted(std::move(looks)))
-      model = *together;
-    else
-      rough.reset();
+    if (const auto together = Scouted(looks)) scout = {looks.back(), *together};
   }
-  Sighting fine = Measure(model, name, image, joint_readings_m, FineEdges());
-  fine.rough = std::move(rough);
+  Sighting fine = Measure(scout ? scout->model : Model(), name, image, joint_readings_m, FineEdges());
+  fine.scout = std::move(scout);
   return fine;
 }
 
@@ -126,9 +121,9 @@ void SessionOutlook::Reject(const Rigid3& base_from_platform, bool for_good) {
 }
 
 void SessionOutlook::Take(const Sighting& sighting) {
-  if (sighting.rough && sighting.unusable.empty() && scouts_.size() < kMostScouts) {
-    scouts_.push_back(*sighting.rough);
-    scouted_ = Scouted(scouts_);
+  if (sighting.scout && sighting.unusable.empty()) {
+    scouts_.push_back(sighting.scout->look);
+    scouted_ = sighting.scout->model;
   }
   if (sighting.unusable.empty()) {
     observations_.push_back(sighting.observation);

@@ -19,13 +19,19 @@ struct OutlookOptions {
   int threads = 2;
 };
 
+// A first look at an image, and the model that it leads to together with those before it.
+struct Scout {
+  ImageObservation look;
+  RigModel model;
+};
+
 // What an image shows of the legs.
 struct Sighting {
   ImageObservation observation;
   int edges = 0;         // of twelve, as measured
   std::string unusable;  // why the image tells nothing; empty: it does
-  // Of the first look, while no model has been calibrated; none where it does not fit the earlier ones.
-  std::optional<ImageObservation> rough;
+  // While no model has been calibrated and first looks are few; none where it does not fit the earlier ones.
+  std::optional<Scout> scout;
 };
 
 // Legs are looked for where the model has them: at first by a first look as a calibration takes it, for a
