@@ -3,35 +3,13 @@
 #include <Eigen/LU>
 
 namespace legible {
-namespace {
-
-struct ProjectedPoint {
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> d_x;
-  Eigen::Matrix<double, 2, kCameraParameterCount> d_camera;
-};
-
-ProjectedPoint ProjectWithJacobians(const CameraParameters& camera, const Eigen::Vector3d& x_in_camera) {
-  const Eigen::Vector2d normalised = x_in_camera.hnormalized();
-  const DistortedPoint lens = DistortWithJacobians(camera.tail<8>(), normalised);
-  const Eigen::Vector2d focal = camera.head<2>();
-  Eigen::Matrix<double, 2, 3> d_normalised;
-  d_normalised << Eigen::Matrix2d::Identity(), -normalised;
-  ProjectedPoint result;
-  result.pixel = focal.cwiseProduct(lens.point) + camera.segment<2>(2);
-  result.d_x = focal.asDiagonal() * lens.d_point_d_undistorted * d_normalised / x_in_camera.z();
-  result.d_camera << Eigen::Matrix2d(lens.point.asDiagonal()), Eigen::Matrix2d::Identity(),
-      focal.asDiagonal() * lens.d_point_d_coefficients;
-  return result;
-}
-
-}  // namespace
 
 std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const TagPlacement& placement,
                                         const Vector6d& placement_displacement,
                                         const Rigid3& camera_from_platform, const Vector6d& pose_displacement,
                                         const TagObservation& observation) {
   TagResiduals result;
+  const Camera through = WithParameters({}, camera);
   for (size_t k = 0; k < observation.corners_px.size(); ++k) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
     const MovedPoint in_parent =
@@ -46,7 +24,7 @@ std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const Ta
       d_pose = in_camera.d_displacement;
     }
     if (!(corner_in_camera.z() > 0)) return std::nullopt;
-    const ProjectedPoint projected = ProjectWithJacobians(camera, corner_in_camera);
+    const ProjectedPoint projected = ProjectWithJacobians(through, corner_in_camera);
     result.residual.segment<2>(row) = projected.pixel - observation.corners_px[k];
     result.d_camera.middleRows<2>(row) = projected.d_camera;
     result.d_placement.middleRows<2>(row) = projected.d_x * d_placement;

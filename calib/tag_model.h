@@ -6,7 +6,7 @@
 #include <array>
 
 #include "calib/base_frame.h"
-#include "core/geometry/edge_distance.h"
+#include "core/geometry/camera_parameters.h"
 #include "core/geometry/rigid3.h"
 #include "core/session/session.h"
 

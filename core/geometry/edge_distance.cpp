@@ -48,22 +48,6 @@ std::optional<Foot> FindFoot(const CameraParameters& camera, const Eigen::Vector
 
 }  // namespace
 
-CameraParameters ParametersOf(const Camera& camera) {
-  CameraParameters parameters;
-  parameters << camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, camera.distortion;
-  return parameters;
-}
-
-Camera WithParameters(const Camera& camera, const CameraParameters& parameters) {
-  Camera result = camera;
-  result.fx_px = parameters[0];
-  result.fy_px = parameters[1];
-  result.cx_px = parameters[2];
-  result.cy_px = parameters[3];
-  result.distortion = parameters.tail<8>();
-  return result;
-}
-
 std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const Eigen::Vector3d& normal,
                                            const Eigen::Vector2d& point_px,
                                            const Eigen::Vector2d& direction_px) {

@@ -5,16 +5,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/geometry/camera.h"
+#include "core/geometry/camera_parameters.h"
 
 namespace legible {
-
-// fx fy cx cy (px), then k1 k2 p1 p2 k3 k4 k5 k6: the order of every derivative with respect to a camera.
-inline constexpr int kCameraParameterCount = 12;
-using CameraParameters = Eigen::Matrix<double, kCameraParameterCount, 1>;
-
-CameraParameters ParametersOf(const Camera& camera);
-Camera WithParameters(const Camera& camera, const CameraParameters& parameters);
 
 struct EdgeDistance {
   double distance_px = 0;            // along direction_px; positive where the point lies outside the leg

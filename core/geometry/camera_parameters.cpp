@@ -1,0 +1,37 @@
+#include "core/geometry/camera_parameters.h"
+
+#include <Eigen/Geometry>
+
+namespace legible {
+
+CameraParameters ParametersOf(const Camera& camera) {
+  CameraParameters parameters;
+  parameters << camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, camera.distortion;
+  return parameters;
+}
+
+Camera WithParameters(const Camera& camera, const CameraParameters& parameters) {
+  Camera result = camera;
+  result.fx_px = parameters[0];
+  result.fy_px = parameters[1];
+  result.cx_px = parameters[2];
+  result.cy_px = parameters[3];
+  result.distortion = parameters.tail<8>();
+  return result;
+}
+
+ProjectedPoint ProjectWithJacobians(const Camera& camera, const Eigen::Vector3d& x_in_camera) {
+  const Eigen::Vector2d normalised = x_in_camera.hnormalized();
+  const DistortedPoint lens = DistortWithJacobians(camera.distortion, normalised);
+  const Eigen::Vector2d focal(camera.fx_px, camera.fy_px);
+  Eigen::Matrix<double, 2, 3> d_normalised;
+  d_normalised << Eigen::Matrix2d::Identity(), -normalised;
+  ProjectedPoint result;
+  result.pixel = focal.cwiseProduct(lens.point) + Eigen::Vector2d(camera.cx_px, camera.cy_px);
+  result.d_x = focal.asDiagonal() * lens.d_point_d_undistorted * d_normalised / x_in_camera.z();
+  result.d_camera << Eigen::Matrix2d(lens.point.asDiagonal()), Eigen::Matrix2d::Identity(),
+      focal.asDiagonal() * lens.d_point_d_coefficients;
+  return result;
+}
+
+}  // namespace legible

@@ -1,0 +1,27 @@
+// The camera as a vector of unknowns, and how a point's pixel changes with them.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+
+namespace legible {
+
+// fx fy cx cy (px), then k1 k2 p1 p2 k3 k4 k5 k6: the order of every derivative with respect to a camera.
+inline constexpr int kCameraParameterCount = 12;
+using CameraParameters = Eigen::Matrix<double, kCameraParameterCount, 1>;
+
+CameraParameters ParametersOf(const Camera& camera);
+Camera WithParameters(const Camera& camera, const CameraParameters& parameters);
+
+// A point's pixel with its derivatives by the point and by the camera's parameters.
+struct ProjectedPoint {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> d_x;
+  Eigen::Matrix<double, 2, kCameraParameterCount> d_camera;
+};
+
+// Of a point in front of the camera (z > 0, which is not checked).
+ProjectedPoint ProjectWithJacobians(const Camera& camera, const Eigen::Vector3d& x_in_camera);
+
+}  // namespace legible
