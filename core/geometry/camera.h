@@ -10,6 +10,7 @@ namespace legible {
 // How many of the distortion coefficients k1 k2 p1 p2 k3 k4 k5 k6 a lens has.
 enum class LensModel {
   kPinhole = 0,       // none
+  kFisheye = 4,  // k1 k2 k3 k4 of OpenCV's fisheye
   kBrownConrady = 5,  // k1 k2 p1 p2 k3, ROS "plumb_bob"
   kRational = 8,      // all eight, ROS "rational_polynomial"
 };

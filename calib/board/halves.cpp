@@ -1,0 +1,133 @@
+#include "calib/board/halves.h"
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+#include "calib/board/neighbour_scatter.h"
+
+namespace legible {
+namespace {
+
+constexpr double kConfidence = 0.999;
+
+// Every other view of those that take part, and where the whole solution has them.
+struct Half {
+  BoardCalibrationInput input;
+  BoardCalibration start;
+};
+
+Half HalfOf(const BoardCalibrationInput& input, const BoardCalibration& whole, size_t which) {
+  Half half{{input.points_in_board_m, {}, input.width_px, input.height_px}, {}};
+  half.start.camera = whole.camera;
+  half.start.warp = whole.warp;
+  size_t count = 0;
+  for (size_t i = 0; i < input.views.size(); ++i) {
+    if (!whole.views[i].left_out.empty() || count++ % 2 != which) continue;
+    half.input.views.push_back(input.views[i]);
+    half.start.views.push_back(whole.views[i]);
+  }
+  return half;
+}
+
+// All points of a grid, each row weighted by the sigma that its point's difference should have.
+struct WeightedGrid {
+  std::vector<GridPoint> points;
+  std::vector<double> sigma_px;
+  Eigen::MatrixXd by_unknowns, by_motion;
+};
+
+WeightedGrid WeightedOver(const Camera& camera, const ImageGrid& grid, const Eigen::MatrixXd& covariance) {
+  WeightedGrid weighted;
+  weighted.points = PointsOver(camera, grid);
+  const Eigen::Index rows = 2 * static_cast<Eigen::Index>(weighted.points.size());
+  weighted.by_unknowns.resize(rows, covariance.cols());
+  weighted.by_motion.resize(rows, 6);
+  for (size_t i = 0; i < weighted.points.size(); ++i) {
+    const GridPoint& point = weighted.points[i];
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
+    const double sigma_px = std::sqrt((point.d_unknowns * covariance * point.d_unknowns.transpose()).trace());
+    weighted.sigma_px.push_back(sigma_px);
+    weighted.by_unknowns.middleRows<2>(row) = point.d_unknowns / sigma_px;
+    weighted.by_motion.middleRows<2>(row) = point.d_motion / sigma_px;
+  }
+  return weighted;
+}
+
+// What is left of each column once the motion is taken out that suits best.
+Eigen::MatrixXd WithoutMotion(const Eigen::MatrixXd& by_motion, const Eigen::MatrixXd& columns) {
+  return columns - by_motion * by_motion.completeOrthogonalDecomposition().solve(columns);
+}
+
+// The differences in the image after the motion that suits best, found by Gauss-Newton, weighted.
+Eigen::VectorXd DifferencesOf(const Camera& other, const WeightedGrid& weighted, const ImageGrid& grid) {
+  constexpr int kSteps = 10;
+  const auto by_motion = weighted.by_motion.completeOrthogonalDecomposition();
+  Vector6d motion = Vector6d::Zero();
+  Eigen::VectorXd differences(weighted.by_motion.rows());
+  for (int step = 0; step <= kSteps; ++step) {
+    for (size_t i = 0; i < weighted.points.size(); ++i)
+      differences.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+          (PixelAfter(other, weighted.points[i], grid, motion) - weighted.points[i].pixel) /
+          weighted.sigma_px[i];
+    if (step < kSteps) motion -= by_motion.solve(differences);
+  }
+  return differences;
+}
+
+void Compare(const Camera& first, const Camera& second, const Eigen::MatrixXd& covariance,
+             HalvesComparison& result) {
+  const WeightedGrid weighted = WeightedOver(first, result.grid, covariance);
+  const Eigen::VectorXd differences = DifferencesOf(second, weighted, result.grid);
+  // In first order the differences are D z with z of that covariance: their square is a sum of squares of
+  // normal values with the eigenvalues of L^T D^T D L as variances (L L^T = covariance), nearly a chi-square
+  // times a factor (Satterthwaite).
+  const Eigen::MatrixXd d = WithoutMotion(weighted.by_motion, weighted.by_unknowns);
+  const Eigen::MatrixXd root = covariance.llt().matrixL();
+  const Eigen::MatrixXd squares = root.transpose() * (d.transpose() * d) * root;
+  const double mean = squares.trace(), freedom = mean * mean / squares.squaredNorm();
+  const boost::math::chi_squared distribution(freedom);
+  result.ratio = std::sqrt(differences.squaredNorm() / mean);
+  result.ratio_limit = std::sqrt(boost::math::quantile(distribution, kConfidence) / freedom);
+
+  double seen = 0, expected = 0;
+  for (size_t i = 0; i < weighted.points.size(); ++i) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
+    const Eigen::Vector2d difference_px = weighted.sigma_px[i] * differences.segment<2>(row);
+    const GridPoint& point = weighted.points[i];
+    result.difference_px[static_cast<size_t>(point.row * result.grid.columns + point.column)] = difference_px;
+    seen += difference_px.squaredNorm();
+    expected += weighted.sigma_px[i] * weighted.sigma_px[i] * (d.middleRows<2>(row) * root).squaredNorm();
+  }
+  result.difference_rms_px = std::sqrt(seen / static_cast<double>(weighted.points.size()));
+  result.expected_rms_px = std::sqrt(expected / static_cast<double>(weighted.points.size()));
+}
+
+}  // namespace
+
+HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCalibration& whole,
+                               const BoardCalibrationOptions& options, const ImageGrid& grid) {
+  HalvesComparison result;
+  result.grid = grid;
+  result.difference_px.resize(static_cast<size_t>(grid.columns * grid.rows));
+  BoardCalibrationOptions quiet = options;
+  quiet.progress = nullptr;
+  std::vector<BoardCalibration> found;
+  for (size_t which : {0u, 1u}) {
+    const Half half = HalfOf(input, whole, which);
+    found.push_back(RefineCamera(half.input, half.start, quiet));
+    if (found.back().status == BoardCalibrationStatus::kConverged) continue;
+    result.why_not = "half of the views alone lead to no camera: " + found.back().message;
+    return result;
+  }
+  // By the scatter of corners among their neighbours, which a lens model that does not fit leaves as it is.
+  const double scatter = NeighbourScatter(input, whole, options.trusts_all).value_or(whole.noise_factor);
+  Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Zero(whole.information.information.rows(), whole.information.information.cols());
+  for (const BoardCalibration& half : found)
+    covariance += std::pow(scatter / half.noise_factor, 2) * half.information.CameraCovariance();
+  Compare(found[0].camera, found[1].camera, covariance, result);
+  return result;
+}
+
+}  // namespace legible

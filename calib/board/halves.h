@@ -1,0 +1,31 @@
+// Whether the lens model fits: two cameras from half of the views each should differ by what their
+// uncertainties allow.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/board/board_calibration.h"
+#include "calib/board/image_grid.h"
+
+namespace legible {
+
+struct HalvesComparison {
+  std::string why_not;  // why there is no comparison; empty: there is
+  ImageGrid grid;
+  // Row by row: what one half's camera has elsewhere than the other's, px, after the motion of what stands
+  // before the camera that suits best; none where a lens model does not reach.
+  std::vector<std::optional<Eigen::Vector2d>> difference_px;
+  double difference_rms_px = 0;  // of the lengths
+  double expected_rms_px = 0;    // by both covariances
+  double ratio = 1;  // differences in units of what is expected of each, rms; 1 where the model is right
+  double ratio_limit = 1;  // that a right model stays below 999 times in 1000
+  bool HasMisfit() const { return why_not.empty() && ratio > ratio_limit; }
+};
+
+// `whole` is a calibration of the input by these options. The halves are every other view that took part.
+HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCalibration& whole,
+                               const BoardCalibrationOptions& options, const ImageGrid& grid);
+
+}  // namespace legible

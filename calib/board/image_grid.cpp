@@ -1,0 +1,34 @@
+#include "calib/board/image_grid.h"
+
+#include <cmath>
+
+namespace legible {
+
+std::vector<GridPoint> PointsOver(const Camera& camera, const ImageGrid& grid) {
+  const bool is_finite = std::isfinite(grid.distance_m);
+  std::vector<GridPoint> points;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column) {
+      GridPoint point;
+      point.column = column;
+      point.row = row;
+      point.pixel = {(column + 0.5) / grid.columns * camera.width_px - 0.5,
+                     (row + 0.5) / grid.rows * camera.height_px - 0.5};
+      const auto x = Unproject(camera, point.pixel);
+      if (!x) continue;
+      point.x_in_camera = (is_finite ? grid.distance_m : 1.0) * x->homogeneous().normalized();
+      const ProjectedPoint projected = ProjectWithJacobians(camera, point.x_in_camera);
+      point.d_unknowns = projected.d_camera.leftCols(4 + static_cast<Eigen::Index>(camera.lens));
+      point.d_motion << (is_finite ? 1.0 : 0.0) * projected.d_x, -projected.d_x * Skew(point.x_in_camera);
+      points.push_back(point);
+    }
+  return points;
+}
+
+Eigen::Vector2d PixelAfter(const Camera& camera, const GridPoint& point, const ImageGrid& grid,
+                           const Vector6d& motion) {
+  const Eigen::Vector3d turned = RotationFromVector(motion.tail<3>()) * point.x_in_camera;
+  return Project(camera, std::isfinite(grid.distance_m) ? turned + motion.head<3>() : turned);
+}
+
+}  // namespace legible
