@@ -1,6 +1,7 @@
 // A camera's intrinsics from views of a calibration board.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ struct BoardCalibration {
   int corners_left_out = 0;  // weight 0
   int iterations = 0;
   double seconds = 0;
+  // Of one coordinate of a corner as the weighted residuals show it.
+  double CornerSigma_px() const { return rms_px / std::sqrt(2.0); }
   BoardInformation information;  // where converged: in the units of the noise that the residuals show
 };
 

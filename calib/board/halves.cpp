@@ -30,41 +30,28 @@ Half HalfOf(const BoardCalibrationInput& input, const BoardCalibration& whole, s
   return half;
 }
 
-// All points of a grid, each row weighted by the sigma that its point's difference should have.
+// All points of a grid, each with the sigma that its difference should have before any motion.
 struct WeightedGrid {
   std::vector<GridPoint> points;
   std::vector<double> sigma_px;
-  Eigen::MatrixXd by_unknowns, by_motion;
+  StackedRows rows;
 };
 
 WeightedGrid WeightedOver(const Camera& camera, const ImageGrid& grid, const Eigen::MatrixXd& covariance) {
-  WeightedGrid weighted;
-  weighted.points = PointsOver(camera, grid);
-  const Eigen::Index rows = 2 * static_cast<Eigen::Index>(weighted.points.size());
-  weighted.by_unknowns.resize(rows, covariance.cols());
-  weighted.by_motion.resize(rows, 6);
-  for (size_t i = 0; i < weighted.points.size(); ++i) {
-    const GridPoint& point = weighted.points[i];
-    const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
-    const double sigma_px = std::sqrt((point.d_unknowns * covariance * point.d_unknowns.transpose()).trace());
-    weighted.sigma_px.push_back(sigma_px);
-    weighted.by_unknowns.middleRows<2>(row) = point.d_unknowns / sigma_px;
-    weighted.by_motion.middleRows<2>(row) = point.d_motion / sigma_px;
-  }
+  WeightedGrid weighted{PointsOver(camera, grid), {}, {}};
+  for (const GridPoint& point : weighted.points)
+    weighted.sigma_px.push_back(
+        std::sqrt((point.d_unknowns * covariance * point.d_unknowns.transpose()).trace()));
+  weighted.rows = Stack(weighted.points, weighted.sigma_px);
   return weighted;
-}
-
-// What is left of each column once the motion is taken out that suits best.
-Eigen::MatrixXd WithoutMotion(const Eigen::MatrixXd& by_motion, const Eigen::MatrixXd& columns) {
-  return columns - by_motion * by_motion.completeOrthogonalDecomposition().solve(columns);
 }
 
 // The differences in the image after the motion that suits best, found by Gauss-Newton, weighted.
 Eigen::VectorXd DifferencesOf(const Camera& other, const WeightedGrid& weighted, const ImageGrid& grid) {
   constexpr int kSteps = 10;
-  const auto by_motion = weighted.by_motion.completeOrthogonalDecomposition();
+  const auto by_motion = weighted.rows.by_motion.completeOrthogonalDecomposition();
   Vector6d motion = Vector6d::Zero();
-  Eigen::VectorXd differences(weighted.by_motion.rows());
+  Eigen::VectorXd differences(weighted.rows.by_motion.rows());
   for (int step = 0; step <= kSteps; ++step) {
     for (size_t i = 0; i < weighted.points.size(); ++i)
       differences.segment<2>(2 * static_cast<Eigen::Index>(i)) =
@@ -82,7 +69,7 @@ void Compare(const Camera& first, const Camera& second, const Eigen::MatrixXd& c
   // In first order the differences are D z with z of that covariance: their square is a sum of squares of
   // normal values with the eigenvalues of L^T D^T D L as variances (L L^T = covariance), nearly a chi-square
   // times a factor (Satterthwaite).
-  const Eigen::MatrixXd d = WithoutMotion(weighted.by_motion, weighted.by_unknowns);
+  const Eigen::MatrixXd d = WithoutMotion(weighted.rows);
   const Eigen::MatrixXd root = covariance.llt().matrixL();
   const Eigen::MatrixXd squares = root.transpose() * (d.transpose() * d) * root;
   const double mean = squares.trace(), freedom = mean * mean / squares.squaredNorm();

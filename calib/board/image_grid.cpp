@@ -1,5 +1,6 @@
 #include "calib/board/image_grid.h"
 
+#include <Eigen/QR>
 #include <cmath>
 
 namespace legible {
@@ -29,6 +30,23 @@ Eigen::Vector2d PixelAfter(const Camera& camera, const GridPoint& point, const I
                            const Vector6d& motion) {
   const Eigen::Vector3d turned = RotationFromVector(motion.tail<3>()) * point.x_in_camera;
   return Project(camera, std::isfinite(grid.distance_m) ? turned + motion.head<3>() : turned);
+}
+
+StackedRows Stack(const std::vector<GridPoint>& points, const std::vector<double>& sigma_px) {
+  const Eigen::Index rows = 2 * static_cast<Eigen::Index>(points.size());
+  StackedRows stacked{{}, Eigen::MatrixXd(rows, 6)};
+  if (!points.empty()) stacked.by_unknowns.resize(rows, points.front().d_unknowns.cols());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
+    stacked.by_unknowns.middleRows<2>(row) = points[i].d_unknowns / sigma_px[i];
+    stacked.by_motion.middleRows<2>(row) = points[i].d_motion / sigma_px[i];
+  }
+  return stacked;
+}
+
+Eigen::MatrixXd WithoutMotion(const StackedRows& rows) {
+  return rows.by_unknowns -
+         rows.by_motion * rows.by_motion.completeOrthogonalDecomposition().solve(rows.by_unknowns);
 }
 
 }  // namespace legible

@@ -32,4 +32,15 @@ std::vector<GridPoint> PointsOver(const Camera& camera, const ImageGrid& grid);
 Eigen::Vector2d PixelAfter(const Camera& camera, const GridPoint& point, const ImageGrid& grid,
                            const Vector6d& motion);
 
+// The rows of all points, each divided by its sigma_px: derivatives by the camera's unknowns, and by the
+// motion.
+struct StackedRows {
+  Eigen::MatrixXd by_unknowns, by_motion;
+};
+StackedRows Stack(const std::vector<GridPoint>& points, const std::vector<double>& sigma_px);
+
+// What is left of the derivatives by the camera's unknowns once each is made up for, as far as can be, by a
+// motion of what stands before the camera: what no estimate of poses by this camera can absorb.
+Eigen::MatrixXd WithoutMotion(const StackedRows& rows);
+
 }  // namespace legible
