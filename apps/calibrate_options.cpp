@@ -58,7 +58,7 @@ void AddModelOptions(CLI::App& command, CalibrateSettings& settings) {
             DemandOneOf("--lens", name, LensNames());
             settings.lens = LensFromName(name);
           },
-          "Lens model to estimate, with 0, 5 or 8 coefficients;\nwithout it that of camera.yaml")
+          "Lens model to estimate, with 0, 5, 8 or 4 coefficients;\nwithout it that of camera.yaml")
       ->type_name(fmt::format("{}", fmt::join(LensNames(), "|")));
   command
       .add_option_function<std::vector<std::string>>(

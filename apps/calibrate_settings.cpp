@@ -16,7 +16,8 @@ using Names = std::vector<std::pair<std::string, Value>>;
 
 const Names<LensModel> kLenses = {{"pinhole", LensModel::kPinhole},
                                   {"brown-conrady", LensModel::kBrownConrady},
-                                  {"rational", LensModel::kRational}};
+                                  {"rational", LensModel::kRational},
+                                  {"fisheye", LensModel::kFisheye}};
 
 template <typename Value>
 std::vector<std::string> NamesOf(const Names<Value>& table) {

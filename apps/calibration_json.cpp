@@ -14,15 +14,14 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kLeastCoefficients = 5;  // of the distortion, also where the lens has none
 
 ordered_json OrNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
 }
 
-// fx, fy, cx, cy and the first coefficients of k1 k2 p1 p2 k3 k4 k5 k6.
+// fx, fy, cx, cy and the lens's coefficients; a pinhole's are five zeros.
 ordered_json CameraValues(const CameraParameters& values, LensModel lens) {
-  const int coefficients = std::max(kLeastCoefficients, static_cast<int>(lens));
+  const int coefficients = static_cast<int>(lens == LensModel::kPinhole ? LensModel::kBrownConrady : lens);
   return {{"fx", values[0]},
           {"fy", values[1]},
           {"cx", values[2]},
@@ -158,8 +157,7 @@ void AddObservations(const CalibrationRun& run, ordered_json& json) {
 }
 
 void AddParameters(const CalibrationRun& run, const FoundParameters& found, ordered_json& json) {
-  Camera camera = run.session.camera;
-  camera.lens = run.options.lens.value_or(camera.lens);
+  const Camera& camera = run.result.guessed_camera;
   json["camera"] = CameraJson(camera, found.camera);
   json["camera"]["sigma"] = CameraValues(found.camera_sigma, camera.lens);
   json["camera_from_base"] = PlacementJson(found.camera_from_base);
@@ -196,14 +194,15 @@ ordered_json CalibrationJson(const CalibrationRun& run, const FoundParameters& f
   return json;
 }
 
-ordered_json NominalJson(const Session& session) {
+ordered_json NominalJson(const CalibrationRun& run) {
   ordered_json legs = ordered_json::array();
-  for (const Leg& leg : session.robot.legs)
+  for (const Leg& leg : run.session.robot.legs)
     legs.push_back({{"base_joint_m", List(leg.base_joint_m)},
                     {"platform_joint_m", List(leg.platform_joint_m)},
                     {"radius_m", leg.radius_m},
                     {"joint_offset_m", leg.joint_offset_m}});
-  return {{"camera", CameraJson(session.camera, ParametersOf(session.camera))}, {"legs", legs}};
+  const Camera& camera = run.result.guessed_camera;
+  return {{"camera", CameraJson(camera, ParametersOf(camera))}, {"legs", legs}};
 }
 
 }  // namespace legible

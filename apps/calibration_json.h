@@ -14,6 +14,6 @@ nlohmann::ordered_json CalibrationJson(const CalibrationRun& run, const FoundPar
                                        const std::vector<std::string>& warnings);
 
 // {camera, legs} of the drawing and the first guess of the camera, in the form of the document above.
-nlohmann::ordered_json NominalJson(const Session& session);
+nlohmann::ordered_json NominalJson(const CalibrationRun& run);
 
 }  // namespace legible

@@ -78,7 +78,7 @@ json OptionsJson(const CalibrationRun& run) {
   for (const auto& [name, sigma] : NamedKnowledge(run.session.known)) known[name] = sigma;
   return {{"options given", OptionsText(run.settings)},
           {"assumption", AssumptionText(run.settings, run.session.known)},
-          {"lens", LensName(run.options.lens.value_or(run.session.camera.lens))},
+          {"lens", LensName(run.result.guessed_camera.lens)},
           {"held", run.settings.hold},
           {"known beforehand (σ)", known},
           {"first camera pose from", run.result.first_pose_from},
@@ -100,7 +100,7 @@ json ReportData(const CalibrationRun& run, const FoundParameters& found,
                {"checks", ChecksJson(run)},
                {"options", OptionsJson(run)}};
   data["calibration"] = calibration;
-  data["nominal"] = NominalJson(run.session);
+  data["nominal"] = NominalJson(run);
   data["weak"] = calibration.at("weak");
   return data;
 }

@@ -53,12 +53,13 @@ std::string Difference(double found, double drawn, double sigma, double scale, i
 }
 
 std::string CameraTable(const CalibrationRun& run, const FoundParameters& found) {
-  const CameraParameters guess = ParametersOf(run.session.camera);
-  const int count = 4 + static_cast<int>(run.options.lens.value_or(run.session.camera.lens));
+  const Camera& camera = run.result.guessed_camera;
+  const CameraParameters guess = ParametersOf(camera);
+  const int count = 4 + static_cast<int>(camera.lens);
   std::string text = fmt::format("\n{:<16}{:>12}{:>20}\n", "Camera", "first guess", "found - guess, ± σ");
   for (int i = 0; i < count; ++i) {
     const int decimals = i < 4 ? 2 : 5;
-    const std::string name = ParameterName(i).substr(std::string("camera.").size());
+    const std::string& name = CameraParameterName(camera.lens, i);
     text += fmt::format("  {:<14}{:>12.{}f}{:>20}\n", name, guess[i], decimals,
                         Difference(found.camera[i], guess[i], found.camera_sigma[i], 1, decimals));
   }

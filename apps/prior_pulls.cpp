@@ -36,10 +36,11 @@ class PullList {
 
 void AddCamera(const CalibrationRun& run, const FoundParameters& found, PullList& pulls) {
   const PriorKnowledge& known = run.session.known;
-  const CameraParameters guess = ParametersOf(run.session.camera);
+  const Camera& camera = run.result.guessed_camera;
+  const CameraParameters guess = ParametersOf(camera);
   for (int i = 0; i < kCameraParameterCount; ++i) {
     const auto& sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
-    pulls.Add(ParameterName(i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
+    pulls.Add(ParameterName(camera.lens, i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
   }
 }
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "apps/json_text.h"
+#include "core/geometry/camera_parameters.h"
 
 namespace legible {
 namespace {
@@ -20,11 +20,13 @@ Json RigidJson(const Rigid3& transform) {
 }
 
 Json CameraJson(const Camera& camera) {
-  constexpr std::array<const char*, 8> kNames = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
-  Json distortion = {
-      {"model", camera.lens == LensModel::kRational ? "opencv_rational" : "opencv_brown_conrady"}};
-  const size_t count = camera.lens == LensModel::kRational ? 8 : 5;
-  for (size_t i = 0; i < count; ++i) distortion[kNames[i]] = camera.distortion[static_cast<Eigen::Index>(i)];
+  // A pinhole is a lens of five zeros.
+  const LensModel lens = camera.lens == LensModel::kPinhole ? LensModel::kBrownConrady : camera.lens;
+  Json distortion = {{"model", lens == LensModel::kRational  ? "opencv_rational"
+                               : lens == LensModel::kFisheye ? "opencv_fisheye"
+                                                             : "opencv_brown_conrady"}};
+  for (int i = 0; i < static_cast<int>(lens); ++i)
+    distortion[CameraParameterName(lens, 4 + i)] = camera.distortion[i];
   return {{"width", camera.width_px}, {"height", camera.height_px}, {"fx", camera.fx_px},
           {"fy", camera.fy_px},       {"cx", camera.cx_px},         {"cy", camera.cy_px},
           {"distortion", distortion}};

@@ -11,10 +11,10 @@ namespace {
 constexpr int kPlacement = kCameraParameterCount + kLegCount * kModelLegParameters;  // of the base: 6
 constexpr int kModelParameters = kPlacement + 6;
 
-std::vector<std::string> ModelNames() {
+std::vector<std::string> ModelNames(LensModel lens) {
   std::vector<std::string> names;
   names.reserve(kModelParameters);
-  for (int i = 0; i < kCameraParameterCount; ++i) names.push_back(ParameterName(i));
+  for (int i = 0; i < kCameraParameterCount; ++i) names.push_back(ParameterName(lens, i));
   for (int leg = 1; leg <= kLegCount; ++leg)
     for (const char* name : {"base_joint_m.x", "base_joint_m.y", "base_joint_m.z", "platform_joint_m.x",
                              "platform_joint_m.y", "platform_joint_m.z", "radius_m", "joint_offset_m"})
@@ -55,7 +55,8 @@ Eigen::MatrixXd ModelBySharedParameters(const LegPoints& base_joints_in_camera_m
 ModelCovariance CovarianceOfModel(const LegCalibration& calibration) {
   const Eigen::MatrixXd map = ModelBySharedParameters(
       calibration.base_joints_in_camera_m, calibration.drawn_base_joints_m, calibration.base_joints_held);
-  ModelCovariance model{ModelNames(), map * calibration.observability.covariance * map.transpose(), {}};
+  ModelCovariance model{
+      ModelNames(calibration.camera.lens), map * calibration.observability.covariance * map.transpose(), {}};
   for (int row = 0; row < kModelParameters; ++row) {
     bool known = true;
     for (int column = 0; column < kSharedParameterCount; ++column)

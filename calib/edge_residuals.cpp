@@ -6,8 +6,7 @@
 #include "core/geometry/cylinder_outline.h"
 
 namespace legible {
-std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,
-                                             const Eigen::Vector3d& a_in_camera,
+std::optional<Eigen::VectorXd> EdgeDistances(const Camera& camera, const Eigen::Vector3d& a_in_camera,
                                              const Eigen::Vector3d& b_in_camera, double radius_m,
                                              const EdgeObservation& edge) {
   const PluckerLine<double> axis = LineThrough<double>(a_in_camera, b_in_camera);
@@ -51,7 +50,7 @@ void WhitenedEdge::Whiten(Eigen::Ref<Eigen::MatrixXd> rows_px) const {
   rows_px -= common_ * (common_damping_.asDiagonal() * (common_.transpose() * rows_px)).eval();
 }
 
-std::optional<EdgeResiduals> EvaluateEdges(const CameraParameters& camera, const Eigen::Vector3d& a_in_camera,
+std::optional<EdgeResiduals> EvaluateEdges(const Camera& camera, const Eigen::Vector3d& a_in_camera,
                                            const Eigen::Vector3d& b_in_camera, double radius_m,
                                            const Eigen::Vector4d& shading_px,
                                            const std::vector<WhitenedEdge>& edges) {

@@ -46,8 +46,7 @@ class WhitenedEdge {
 
 // Distances (px, outward) of an edge's samples from the projected, distorted outline of the cylinder of
 // radius_m about the axis from a_in_camera to b_in_camera; nothing where there is no such outline.
-std::optional<Eigen::VectorXd> EdgeDistances(const CameraParameters& camera,
-                                             const Eigen::Vector3d& a_in_camera,
+std::optional<Eigen::VectorXd> EdgeDistances(const Camera& camera, const Eigen::Vector3d& a_in_camera,
                                              const Eigen::Vector3d& b_in_camera, double radius_m,
                                              const EdgeObservation& edge);
 
@@ -62,7 +61,7 @@ struct EdgeResiduals {
 // Distances of the samples of `edges` (all of one leg) from the projected, distorted outline of the cylinder
 // of radius_m about the axis from a_in_camera to b_in_camera, moved outward as `shading` says. Nothing where
 // the camera centre lies in the cylinder or an outline cannot be reached.
-std::optional<EdgeResiduals> EvaluateEdges(const CameraParameters& camera, const Eigen::Vector3d& a_in_camera,
+std::optional<EdgeResiduals> EvaluateEdges(const Camera& camera, const Eigen::Vector3d& a_in_camera,
                                            const Eigen::Vector3d& b_in_camera, double radius_m,
                                            const Eigen::Vector4d& shading_px,
                                            const std::vector<WhitenedEdge>& edges);

@@ -7,19 +7,18 @@
 namespace legible {
 namespace {
 
-std::vector<std::string> MakeParameterNames() {
-  std::vector<std::string> names;
-  for (const char* name :
-       {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"})
-    names.push_back(fmt::format("camera.{}", name));
-  for (int leg = 1; leg <= kLegCount; ++leg)
-    for (const char* name :
-         {"base_joint_in_camera_m.x", "base_joint_in_camera_m.y", "base_joint_in_camera_m.z",
-          "platform_joint_m.x", "platform_joint_m.y", "platform_joint_m.z", "radius_m", "joint_offset_m",
-          "edge_1_shift_px", "edge_1_tilt_px", "edge_2_shift_px", "edge_2_tilt_px"})
-      names.push_back(fmt::format("legs[{}].{}", leg, name));
-  return names;
-}
+constexpr std::array<const char*, kLegParameterCount> kLegParameterNames = {"base_joint_in_camera_m.x",
+                                                                            "base_joint_in_camera_m.y",
+                                                                            "base_joint_in_camera_m.z",
+                                                                            "platform_joint_m.x",
+                                                                            "platform_joint_m.y",
+                                                                            "platform_joint_m.z",
+                                                                            "radius_m",
+                                                                            "joint_offset_m",
+                                                                            "edge_1_shift_px",
+                                                                            "edge_1_tilt_px",
+                                                                            "edge_2_shift_px",
+                                                                            "edge_2_tilt_px"};
 
 }  // namespace
 
@@ -49,6 +48,10 @@ bool EstimationProblem::HasPlatformGauge() const {
   return platform_free && !units.empty() && units.front().rigid;
 }
 
+Camera CameraOf(const EstimationProblem& problem) {
+  return WithParameters(problem.camera, problem.shared.camera);
+}
+
 double& Parameter(SharedParameters& shared, int index) {
   if (index < kCameraParameterCount) return shared.camera[index];
   const int of_leg = index - kCameraParameterCount;
@@ -59,9 +62,11 @@ double Parameter(const SharedParameters& shared, int index) {
   return Parameter(const_cast<SharedParameters&>(shared), index);
 }
 
-const std::string& ParameterName(int index) {
-  static const std::vector<std::string> names = MakeParameterNames();
-  return names.at(static_cast<size_t>(index));
+std::string ParameterName(LensModel lens, int index) {
+  if (index < kCameraParameterCount) return fmt::format("camera.{}", CameraParameterName(lens, index));
+  const int of_leg = index - kCameraParameterCount;
+  return fmt::format("legs[{}].{}", of_leg / kLegParameterCount + 1,
+                     kLegParameterNames[static_cast<size_t>(of_leg % kLegParameterCount)]);
 }
 
 Eigen::Matrix<double, 6, 18> PlatformGauge(const LegPoints& drawn_platform_joints) {

@@ -41,6 +41,7 @@ struct ParameterPrior {
 };
 
 struct EstimationProblem {
+  Camera camera;  // says lens and size; what is estimated of it stands in `shared`
   SharedParameters shared;
   std::vector<PoseUnit> units;
   std::bitset<kSharedParameterCount> free;
@@ -57,10 +58,13 @@ struct EstimationProblem {
   bool HasPlatformGauge() const;
 };
 
+// Where the problem stands.
+Camera CameraOf(const EstimationProblem& problem);
+
 double& Parameter(SharedParameters& shared, int index);
 double Parameter(const SharedParameters& shared, int index);
 // "camera.fx_px", …, "legs[1].base_joint_m.x" (in camera), …, as model.yaml and the messages name them.
-const std::string& ParameterName(int index);
+std::string ParameterName(LensModel lens, int index);
 
 // Six rows that vanish in first order where the platform frame is the rigid fit of B to the drawn joints, per
 // m: sum (B - B0) / sqrt(6) and sum (B0 - centroid) x (B - B0), normalised. Columns: B of leg 0, …, 5.

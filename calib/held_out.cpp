@@ -66,7 +66,7 @@ std::optional<Squares> ErrorByReadings(const ImageObservation& image, const LegC
   for (const EdgeObservation& edge : image.edges) {
     const Leg& leg = trained.robot.legs[static_cast<size_t>(edge.leg)];
     const auto distances = EdgeDistances(
-        ParametersOf(trained.camera), trained.camera_from_base * leg.base_joint_m,
+        trained.camera, trained.camera_from_base * leg.base_joint_m,
         trained.camera_from_base * (fk.base_from_platform * leg.platform_joint_m), leg.radius_m, edge);
     if (distances) squares.Add(*distances);
   }

@@ -16,6 +16,7 @@ Eigen::MatrixXd ImageInformation(const EstimationProblem& problem, const ImageOb
                                  const Rigid3& camera_from_platform,
                                  const std::optional<double>& reading_sigma_m, const EdgeNoise& noise) {
   EstimationProblem alone;
+  alone.camera = problem.camera;
   alone.shared = problem.shared;
   alone.free = problem.free;
   PoseUnit unit{0, true, camera_from_platform, Eigen::Vector3d::Zero(), {}};

@@ -171,7 +171,7 @@ bool Calibrator::EvaluateEdges() {
     EdgeResidualSet& edge = edges_[i];
     const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(edge.leg)];
     const LegTip tip = TipOf(problem_.units[placements_[i].first], leg, at_rest);
-    const auto distances = EdgeDistances(problem_.shared.camera, leg.segment<3>(leg_parameter::kBaseJoint),
+    const auto distances = EdgeDistances(CameraOf(problem_), leg.segment<3>(leg_parameter::kBaseJoint),
                                          tip.b_in_camera, leg[leg_parameter::kRadius], *sources_[i]);
     if (!distances) return false;
     const Eigen::Vector2d shading = leg.segment<2>(leg_parameter::kShading + 2 * edge.edge);

@@ -45,8 +45,8 @@ Eigen::Index RowCount(const LegObservation& observation) {
   return rows;
 }
 
-std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg,
-                                        const LegTip& tip, const LegObservation& observation) {
+std::optional<LegResiduals> EvaluateLeg(const Camera& camera, const LegParameters& leg, const LegTip& tip,
+                                        const LegObservation& observation) {
   const auto edges =
       EvaluateEdges(camera, leg.segment<3>(leg_parameter::kBaseJoint), tip.b_in_camera,
                     leg[leg_parameter::kRadius], leg.segment<4>(leg_parameter::kShading), observation.edges);

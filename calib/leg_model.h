@@ -68,7 +68,7 @@ struct LegResiduals {
 Eigen::Index RowCount(const LegObservation& observation);
 
 // Nothing where the model cannot produce the edges (camera centre inside a leg, a lens folded over).
-std::optional<LegResiduals> EvaluateLeg(const CameraParameters& camera, const LegParameters& leg,
-                                        const LegTip& tip, const LegObservation& observation);
+std::optional<LegResiduals> EvaluateLeg(const Camera& camera, const LegParameters& leg, const LegTip& tip,
+                                        const LegObservation& observation);
 
 }  // namespace legible

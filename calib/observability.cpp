@@ -30,17 +30,25 @@ struct NamedDirection {
   Eigen::VectorXd direction;
 };
 
+// A coefficient's size is what moves the image corner by its whole distance from the centre.
+Distortion CoefficientSizes(const Camera& camera) {
+  const double r2 = Eigen::Vector2d(camera.cx_px / camera.fx_px, camera.cy_px / camera.fy_px).squaredNorm();
+  const double r = std::sqrt(r2), r4 = r2 * r2;
+  Distortion sizes;
+  if (camera.lens == LensModel::kFisheye)  // there r is the angle
+    sizes << 1 / r2, 1 / r4, 1 / (r2 * r4), 1 / (r4 * r4), Eigen::Vector4d::Ones();
+  else
+    sizes << 1 / r2, 1 / r4, 1 / r, 1 / r, 1 / (r2 * r4), 1 / r2, 1 / r4, 1 / (r2 * r4);
+  return sizes;
+}
+
 // The size of the thing that each parameter describes, so that a relative sigma of 1 means "not known at
 // all".
 Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {
   const SharedParameters& shared = problem.shared;
   Eigen::VectorXd sizes(kSharedParameterCount);
   sizes.head<4>().setConstant(shared.camera[0]);
-  // A coefficient's size is what moves the image corner by its whole distance from the centre.
-  const double r2 = shared.camera.segment<2>(2).cwiseQuotient(shared.camera.head<2>()).squaredNorm();
-  const double r = std::sqrt(r2);
-  sizes.segment<8>(4) << 1 / r2, 1 / (r2 * r2), 1 / r, 1 / r, 1 / (r2 * r2 * r2), 1 / r2, 1 / (r2 * r2),
-      1 / (r2 * r2 * r2);
+  sizes.segment<8>(4) = CoefficientSizes(CameraOf(problem));
   for (int i = 0; i < kLegCount; ++i) {
     const LegParameters& leg = shared.legs[static_cast<size_t>(i)];
     auto of_leg = sizes.segment<kLegParameterCount>(FirstParameterOfLeg(i));
@@ -106,7 +114,7 @@ Eigen::MatrixXd FreeDirections(const EstimationProblem& problem, const Eigen::Ve
 }
 
 // "camera.fx_px (+), legs[1].radius_m (-) …": the parameters that the direction moves most.
-std::string LargestEntries(const Eigen::VectorXd& direction) {
+std::string LargestEntries(LensModel lens, const Eigen::VectorXd& direction) {
   std::vector<int> order(static_cast<size_t>(direction.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -114,7 +122,7 @@ std::string LargestEntries(const Eigen::VectorXd& direction) {
   const double largest = std::abs(direction[order[0]]);
   std::string text;
   for (size_t i = 0; i < 4 && std::abs(direction[order[i]]) > 0.3 * largest; ++i)
-    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", ParameterName(order[i]),
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", ParameterName(lens, order[i]),
                         direction[order[i]] > 0 ? '+' : '-');
   return text;
 }
@@ -146,9 +154,9 @@ bool IsOfDistortionAlone(const Eigen::VectorXd& direction) {
   return direction.segment(kFirst, kCameraParameterCount - kFirst).norm() > 0.99 * direction.norm();
 }
 
-std::string DescribeUnnamed(const Eigen::VectorXd& direction, double relative_sigma) {
+std::string DescribeUnnamed(LensModel lens, const Eigen::VectorXd& direction, double relative_sigma) {
   return fmt::format(
-      "a combination of {} is {}: {}", LargestEntries(direction),
+      "a combination of {} is {}: {}", LargestEntries(lens, direction),
       relative_sigma < 1 ? fmt::format("known only to {:.0f} % of its size", 100 * relative_sigma)
                          : "not determined",
       IsOfDistortionAlone(direction)
@@ -178,7 +186,8 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
     space *=
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(space.transpose() * relative * space).eigenvectors();
   for (Eigen::Index i = 0; i < space.cols(); ++i)
-    add(DescribeUnnamed(space.col(i), SigmaAlong(space.col(i), relative, zero)), space.col(i));
+    add(DescribeUnnamed(problem.camera.lens, space.col(i), SigmaAlong(space.col(i), relative, zero)),
+        space.col(i));
   return result;
 }
 
@@ -230,7 +239,8 @@ Observability AnalyseObservability(const EstimationProblem& problem, const Eigen
   result.unobservable = NameUnobservable(problem, sizes, relative, zero, vectors.leftCols(unknown));
   for (Eigen::Index i = unknown; i < count && result.weak.size() < kWeakDirectionsReported; ++i)
     if (!IsMostlyShading(vectors.col(i)))
-      result.weak.push_back(Describe(LargestEntries(vectors.col(i)), sigma(i), vectors.col(i), sizes));
+      result.weak.push_back(
+          Describe(LargestEntries(problem.camera.lens, vectors.col(i)), sigma(i), vectors.col(i), sizes));
 
   const Eigen::MatrixXd known = sizes.asDiagonal() * vectors.rightCols(count - unknown);
   result.covariance = known * values.tail(count - unknown).cwiseInverse().asDiagonal() * known.transpose();

@@ -187,6 +187,7 @@ CalibrationStart StartOf(const LegCalibrationInput& input) {
 EstimationProblem ProblemOf(const LegCalibrationInput& input, const LegCalibrationOptions& options,
                             const CalibrationStart& start) {
   EstimationProblem problem;
+  problem.camera = input.camera;
   problem.shared = ParametersOf(start.camera, start.robot, start.camera_from_base);
   problem.free = FreeParameters(input, options);
   AddPriors(input, options, problem);

@@ -90,7 +90,7 @@ ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
     const Reading& reading = row.readings[static_cast<size_t>(i)];
     const LegObservation& observation = unit.legs[reading.leg];
     const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
-    const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
+    const auto r = EvaluateLeg(CameraOf(problem_), leg, TipOf(unit, leg, at_rest), observation);
     if (!r) continue;
     const Eigen::Index edge_rows = r->residual.size() - 1;
     at.image.noalias() += r->d_pose.topRows(edge_rows).transpose() * r->d_pose.topRows(edge_rows);
@@ -99,7 +99,7 @@ ReadingRounds::Linearised ReadingRounds::Linearise(const Row& row) const {
     at.d_pose.row(i) = factor * r->d_pose.row(edge_rows);
   }
   for (const TagObservation& tag : unit.tags) {
-    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+    const auto r = EvaluateTag(CameraOf(problem_), problem_.tag_placements[tag.group], Vector6d::Zero(),
                                unit.camera_from_platform, Vector6d::Zero(), tag);
     if (r) at.image.noalias() += r->d_pose.transpose() * r->d_pose;
   }

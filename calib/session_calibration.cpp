@@ -14,6 +14,7 @@
 
 #include "calib/first_look.h"
 #include "calib/held_out.h"
+#include "core/geometry/nearest_camera.h"
 #include "core/stopwatch.h"
 
 namespace legible {
@@ -25,11 +26,19 @@ constexpr double kGrossMisfit = 8;       // drawn joints held 2 mm off leave 11,
 constexpr double kMisfitOfFew = 2;       // where most edges in sight were not even found near the model
 constexpr double kTagPoseRange_px = 30;  // how far off the legs may be where tags gave the camera's pose
 
-// The camera with another lens model: coefficients that the model lacks are 0.
-Camera WithLens(Camera camera, LensModel lens) {
-  camera.lens = lens;
-  camera.distortion.tail(camera.distortion.size() - static_cast<Eigen::Index>(lens)).setZero();
-  return camera;
+// The camera through another lens model. Focal lengths and principal point stay, for what is held or known of
+// them refers to these; the coefficients are those that come nearest. They are 0 where no such lens covers
+// the image, and where a camera without distortion says only that nothing is known of it.
+Camera WithLens(const Camera& camera, LensModel lens) {
+  std::bitset<kCameraParameterCount> coefficients = AllParametersOf(lens);
+  for (size_t i = 0; i < 4; ++i) coefficients.reset(i);
+  const bool is_unknown = camera.lens != LensModel::kFisheye && camera.distortion.isZero();
+  Camera with_lens = camera;
+  with_lens.lens = lens;
+  with_lens.distortion.setZero();
+  if (is_unknown) return with_lens;
+  const NearestCamera nearest = FindNearestCamera(camera, lens, coefficients);
+  return std::isfinite(nearest.max_px) ? nearest.camera : with_lens;
 }
 
 // What the next search for edges starts from.
@@ -57,7 +66,7 @@ class SessionCalibrator {
       : session_(session), options_(options), count_(session.images.size()) {
     prediction_.camera = session.camera;
     if (options.lens) prediction_.camera = WithLens(prediction_.camera, *options.lens);
-    drawn_camera_ = prediction_.camera;
+    result_.guessed_camera = prediction_.camera;
     prediction_.robot = session.robot;
     result_.images.resize(count_);
     for (size_t i = 0; i < count_; ++i) result_.images[i].name = session.images[i].name;
@@ -263,7 +272,7 @@ class SessionCalibrator {
   LegCalibrationInput Input(const std::vector<size_t>& which) const {
     LegCalibrationInput input{
         session_.robot,
-        drawn_camera_,
+        result_.guessed_camera,
         prediction_.camera_from_base,
         {},
         session_.known,
@@ -394,7 +403,6 @@ class SessionCalibrator {
   const Session& session_;
   const SessionCalibrationOptions& options_;
   size_t count_;
-  Camera drawn_camera_;
   Prediction prediction_;
   std::vector<GrayImage> images_;
   std::vector<double> squares_, weights_;

@@ -63,6 +63,8 @@ struct StageTimes {
 
 struct SessionCalibration {
   LegCalibration calibration;
+  Camera guessed_camera;  // the session's, through the lens that is estimated: what is held or known refers
+                          // to it
   std::vector<ImageOutcome> images;
   std::vector<size_t>
       estimated;  // positions in `images` of those that the estimation was given, in its order

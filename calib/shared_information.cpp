@@ -70,7 +70,7 @@ class Information {
     Eigen::MatrixXd with_pose = Eigen::MatrixXd::Zero(first_pose_ + unit.size(), first_pose_ + unit.size());
     for (const LegObservation& observation : unit.legs) {
       const LegParameters& leg = problem_.shared.legs[static_cast<size_t>(observation.leg)];
-      const auto r = EvaluateLeg(problem_.shared.camera, leg, TipOf(unit, leg, at_rest), observation);
+      const auto r = EvaluateLeg(CameraOf(problem_), leg, TipOf(unit, leg, at_rest), observation);
       Demand(r.has_value());
       Add({{0, r->d_camera}, {FirstParameterOfLeg(observation.leg), r->d_leg}, {first_pose_, r->d_pose}},
           with_pose);
@@ -82,7 +82,7 @@ class Information {
 
   void AddTag(const TagObservation& tag, const Rigid3& camera_from_platform,
               const std::optional<Eigen::Index>& pose, Eigen::MatrixXd& information) const {
-    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+    const auto r = EvaluateTag(CameraOf(problem_), problem_.tag_placements[tag.group], Vector6d::Zero(),
                                camera_from_platform, Vector6d::Zero(), tag);
     Demand(r.has_value());
     std::vector<DerivativeBlock> blocks = {{0, r->d_camera}, {FirstOfGroup(tag.group), r->d_placement}};

@@ -18,13 +18,14 @@ void CopyRowMajor(const Eigen::MatrixXd& jacobian, double* to) {
 // One leg in one image: blocks camera (12), leg (12), pose of the unit (6 or 2).
 class LegCost final : public ceres::CostFunction {
  public:
-  LegCost(const PoseUnit& unit, const LegObservation& observation) : unit_(unit), observation_(observation) {
+  LegCost(const Camera& lens, const PoseUnit& unit, const LegObservation& observation)
+      : lens_(lens), unit_(unit), observation_(observation) {
     *mutable_parameter_block_sizes() = {kCameraParameterCount, kLegParameterCount, unit.size()};
     set_num_residuals(static_cast<int>(RowCount(observation)));
   }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const CameraParameters camera = Eigen::Map<const CameraParameters>(parameters[0]);
+    const Camera camera = WithParameters(lens_, Eigen::Map<const CameraParameters>(parameters[0]));
     const LegParameters leg = Eigen::Map<const LegParameters>(parameters[1]);
     const auto r = EvaluateLeg(camera, leg, TipOf(unit_, leg, parameters[2]), observation_);
     if (!r) return false;
@@ -37,6 +38,7 @@ class LegCost final : public ceres::CostFunction {
   }
 
  private:
+  const Camera& lens_;
   const PoseUnit& unit_;
   const LegObservation& observation_;
 };
@@ -44,15 +46,16 @@ class LegCost final : public ceres::CostFunction {
 // One tag: blocks camera (12), placement of its group (6) and, on the platform, the pose of the unit (6).
 class TagCost final : public ceres::CostFunction {
  public:
-  TagCost(const TagPlacement& placement, const PoseUnit* unit, const TagObservation& observation)
-      : placement_(placement), unit_(unit), observation_(observation) {
+  TagCost(const Camera& lens, const TagPlacement& placement, const PoseUnit* unit,
+          const TagObservation& observation)
+      : lens_(lens), placement_(placement), unit_(unit), observation_(observation) {
     *mutable_parameter_block_sizes() = {kCameraParameterCount, 6};
     if (unit != nullptr) mutable_parameter_block_sizes()->push_back(6);
     set_num_residuals(kTagRows);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const CameraParameters camera = Eigen::Map<const CameraParameters>(parameters[0]);
+    const Camera camera = WithParameters(lens_, Eigen::Map<const CameraParameters>(parameters[0]));
     const Vector6d placed = Eigen::Map<const Vector6d>(parameters[1]);
     const Vector6d posed =
         unit_ != nullptr ? Vector6d(Eigen::Map<const Vector6d>(parameters[2])) : Vector6d::Zero();
@@ -69,6 +72,7 @@ class TagCost final : public ceres::CostFunction {
   }
 
  private:
+  const Camera& lens_;
   const TagPlacement& placement_;
   const PoseUnit* unit_;  // none on the base
   const TagObservation& observation_;
@@ -288,8 +292,8 @@ class CeresProblem {
 
   void AddLeg(size_t unit, const LegObservation& observation) {
     if (RowCount(observation) == 0) return;
-    problem_.AddResidualBlock(new LegCost(estimation_.units[unit], observation), nullptr, Camera(),
-                              Leg(observation.leg), &displacements_[6 * unit]);
+    problem_.AddResidualBlock(new LegCost(estimation_.camera, estimation_.units[unit], observation), nullptr,
+                              Camera(), Leg(observation.leg), &displacements_[6 * unit]);
   }
   void AddPrior(const ParameterPrior& prior) {
     const bool of_camera = prior.parameter < kCameraParameterCount;
@@ -303,8 +307,9 @@ class CeresProblem {
     const TagPlacement& placement = estimation_.tag_placements[tag.group];
     std::vector<double*> blocks = {Camera(), &placements_[6 * tag.group]};
     if (unit) blocks.push_back(&displacements_[6 * *unit]);
-    problem_.AddResidualBlock(new TagCost(placement, unit ? &estimation_.units[*unit] : nullptr, tag),
-                              nullptr, blocks);
+    problem_.AddResidualBlock(
+        new TagCost(estimation_.camera, placement, unit ? &estimation_.units[*unit] : nullptr, tag), nullptr,
+        blocks);
   }
   void AddAllLegs(ceres::CostFunction* cost, const std::vector<double*>& others = {}) {
     std::vector<double*> blocks = SharedBlocks();

@@ -4,12 +4,11 @@
 
 namespace legible {
 
-std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const TagPlacement& placement,
+std::optional<TagResiduals> EvaluateTag(const Camera& camera, const TagPlacement& placement,
                                         const Vector6d& placement_displacement,
                                         const Rigid3& camera_from_platform, const Vector6d& pose_displacement,
                                         const TagObservation& observation) {
   TagResiduals result;
-  const Camera through = WithParameters({}, camera);
   for (size_t k = 0; k < observation.corners_px.size(); ++k) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
     const MovedPoint in_parent =
@@ -24,7 +23,7 @@ std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const Ta
       d_pose = in_camera.d_displacement;
     }
     if (!(corner_in_camera.z() > 0)) return std::nullopt;
-    const ProjectedPoint projected = ProjectWithJacobians(through, corner_in_camera);
+    const ProjectedPoint projected = ProjectWithJacobians(camera, corner_in_camera);
     result.residual.segment<2>(row) = projected.pixel - observation.corners_px[k];
     result.d_camera.middleRows<2>(row) = projected.d_camera;
     result.d_placement.middleRows<2>(row) = projected.d_x * d_placement;

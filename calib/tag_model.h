@@ -42,7 +42,7 @@ struct TagResiduals {
 
 // At the placement moved by placement_displacement and, on the platform, the platform's pose moved by
 // pose_displacement (neither is looked at on the base). Nothing where a corner lies behind the camera.
-std::optional<TagResiduals> EvaluateTag(const CameraParameters& camera, const TagPlacement& placement,
+std::optional<TagResiduals> EvaluateTag(const Camera& camera, const TagPlacement& placement,
                                         const Vector6d& placement_displacement,
                                         const Rigid3& camera_from_platform, const Vector6d& pose_displacement,
                                         const TagObservation& observation);

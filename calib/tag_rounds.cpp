@@ -28,7 +28,7 @@ std::optional<size_t> TagRounds::Evaluate() {
     const TagObservation& tag = *sources_[i].tag;
     const Rigid3 camera_from_platform =
         sources_[i].unit != nullptr ? sources_[i].unit->camera_from_platform : Rigid3();
-    const auto r = EvaluateTag(problem_.shared.camera, problem_.tag_placements[tag.group], Vector6d::Zero(),
+    const auto r = EvaluateTag(CameraOf(problem_), problem_.tag_placements[tag.group], Vector6d::Zero(),
                                camera_from_platform, Vector6d::Zero(), tag);
     if (r)
       errors_[i].error_px = r->residual * tag.sigma_px;

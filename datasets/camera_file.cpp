@@ -88,15 +88,17 @@ LensModel LensFromYaml(const YamlValue& model) {
   const std::string name = model.Text();
   if (name == "plumb_bob") return LensModel::kBrownConrady;
   if (name == "rational_polynomial") return LensModel::kRational;
+  if (name == "equidistant") return LensModel::kFisheye;
   if (!name.empty() && name != "none") {
     model.Fail(fmt::format("is \"{}\", a lens model not known here", name),
-               "give plumb_bob, rational_polynomial or none");
+               "give plumb_bob, rational_polynomial, equidistant or none");
   }
   return LensModel::kPinhole;
 }
 
 std::string RosLensName(LensModel lens) {
   if (lens == LensModel::kRational) return "rational_polynomial";
+  if (lens == LensModel::kFisheye) return "equidistant";
   return lens == LensModel::kBrownConrady ? "plumb_bob" : "none";
 }
 

@@ -18,9 +18,10 @@ struct CameraFile {
 };
 
 // Reads what describes the raw image; of the rest of camera_info, rectification, projection, header and name
-// are passed over. distortion_model: plumb_bob (5 coefficients), rational_polynomial (8), none or nothing
-// (0). Throws InputError for anything else: unknown keys, skew, binning, a region of interest, a focal length
-// that makes no sense for the image size (below 0.2 or above 50 times the width or height).
+// are passed over. distortion_model: plumb_bob (5 coefficients), rational_polynomial (8), equidistant (4),
+// none or nothing (0). Throws InputError for anything else: unknown keys, skew, binning, a region of
+// interest, a focal length that makes no sense for the image size (below 0.2 or above 50 times the width or
+// height).
 CameraFile ReadCamera(const std::filesystem::path& file);
 
 // Writes so that ReadCamera gives back the same bits and ROS reads it too. Throws InputError if the file

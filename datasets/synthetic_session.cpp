@@ -110,7 +110,7 @@ EdgeSample SampleAt(const Camera& camera, const Eigen::Vector3d& axis_point_in_c
   const Eigen::Vector2d projection = axis_point_in_camera.hnormalized();
   const Eigen::Vector2d n = normal.head<2>();
   const Eigen::Vector2d nearest = projection - n * normal.dot(projection.homogeneous()) / n.squaredNorm();
-  const DistortedPoint distorted = DistortWithJacobians(camera.distortion, nearest);
+  const DistortedPoint distorted = DistortWithJacobians(camera.lens, camera.distortion, nearest);
   const Eigen::Matrix2d d_pixel_d_nearest =
       Eigen::Vector2d(camera.fx_px, camera.fy_px).asDiagonal() * distorted.d_point_d_undistorted;
   EdgeSample sample;
@@ -166,7 +166,7 @@ std::optional<ImageObservation> ExactObservation(const SyntheticOptions& options
 void DrawImages(const SyntheticOptions& options, SyntheticSession& session) {
   Generator generator = MakeGenerator(options.seed, Stream::kPoses);
   const View view{session.true_camera, session.true_camera_from_base,
-                  MonotonicRadius(options.camera.distortion)};
+                  MonotonicRadius(options.camera.lens, options.camera.distortion)};
   int tries = 0;
   while (static_cast<int>(session.exact_observations.size()) < options.image_count) {
     const Rigid3 pose = DrawPose(options, generator);
@@ -329,6 +329,15 @@ Camera DesktopCamera(bool is_distorted) {
   camera.cx_px = 654.12;
   camera.cy_px = 467.63;
   if (is_distorted) camera.distortion.head<4>() << -0.18, 0.06, 0.0007, -0.0004;
+  return camera;
+}
+
+Camera DesktopFisheye() {
+  Camera camera = DesktopCamera(false);
+  camera.lens = LensModel::kFisheye;
+  camera.fx_px = 668.31;
+  camera.fy_px = 669.77;
+  camera.distortion.head<4>() << -0.021, 0.012, -0.009, 0.0021;
   return camera;
 }
 

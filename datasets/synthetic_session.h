@@ -23,6 +23,9 @@ GoughStewart DesktopHexapod();
 // or none. Its model is Brown-Conrady either way.
 Camera DesktopCamera(bool is_distorted);
 
+// A camera of 1280 x 960 px whose fisheye lens shows 137 degrees from corner to corner.
+Camera DesktopFisheye();
+
 // The camera frame at a point of the base frame (m), looking at another, its x axis horizontal. Returns
 // camera_from_base. Throws std::invalid_argument if one is above the other.
 Rigid3 LookAt(const Eigen::Vector3d& position_in_base, const Eigen::Vector3d& target_in_base);

@@ -1,8 +1,18 @@
 #include "core/geometry/camera_parameters.h"
 
 #include <Eigen/Geometry>
+#include <array>
 
 namespace legible {
+
+const std::string& CameraParameterName(LensModel lens, int index) {
+  using Names = std::array<std::string, kCameraParameterCount>;
+  static const Names pinhole = {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2",
+                                "p1",    "p2",    "k3",    "k4",    "k5", "k6"};
+  static const Names fisheye = {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2",
+                                "k3",    "k4",    "k5",    "k6",    "k7", "k8"};
+  return (lens == LensModel::kFisheye ? fisheye : pinhole).at(static_cast<size_t>(index));
+}
 
 CameraParameters ParametersOf(const Camera& camera) {
   CameraParameters parameters;
@@ -22,7 +32,7 @@ Camera WithParameters(const Camera& camera, const CameraParameters& parameters) 
 
 ProjectedPoint ProjectWithJacobians(const Camera& camera, const Eigen::Vector3d& x_in_camera) {
   const Eigen::Vector2d normalised = x_in_camera.hnormalized();
-  const DistortedPoint lens = DistortWithJacobians(camera.distortion, normalised);
+  const DistortedPoint lens = DistortWithJacobians(camera.lens, camera.distortion, normalised);
   const Eigen::Vector2d focal(camera.fx_px, camera.fy_px);
   Eigen::Matrix<double, 2, 3> d_normalised;
   d_normalised << Eigen::Matrix2d::Identity(), -normalised;

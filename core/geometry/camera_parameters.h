@@ -2,16 +2,22 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "core/geometry/camera.h"
 
 namespace legible {
 
-// fx fy cx cy (px), then k1 k2 p1 p2 k3 k4 k5 k6: the order of every derivative with respect to a camera.
+// fx fy cx cy (px), then the lens's coefficients as in Distortion: the order of every derivative with respect
+// to a camera.
 inline constexpr int kCameraParameterCount = 12;
 using CameraParameters = Eigen::Matrix<double, kCameraParameterCount, 1>;
 
+// "fx_px", ..., "k1", ...; coefficients that the lens does not have have names too.
+const std::string& CameraParameterName(LensModel lens, int index);
+
 CameraParameters ParametersOf(const Camera& camera);
+// With the lens and the size of `camera`.
 Camera WithParameters(const Camera& camera, const CameraParameters& parameters);
 
 // A point's pixel with its derivatives by the point and by the camera's parameters.

@@ -16,25 +16,28 @@ struct Foot {
   Eigen::Matrix2d d_pixel_d_undistorted;
 };
 
-Foot EvaluateFoot(const CameraParameters& camera, const Distortion& k, const Eigen::Vector2d& undistorted) {
-  Foot foot{undistorted, DistortWithJacobians(k, undistorted), {}};
-  foot.d_pixel_d_undistorted = camera.head<2>().asDiagonal() * foot.distorted.d_point_d_undistorted;
+Eigen::Vector2d FocalLengths(const Camera& camera) { return {camera.fx_px, camera.fy_px}; }
+Eigen::Vector2d Centre(const Camera& camera) { return {camera.cx_px, camera.cy_px}; }
+
+Foot EvaluateFoot(const Camera& camera, const Eigen::Vector2d& undistorted) {
+  Foot foot{undistorted, DistortWithJacobians(camera.lens, camera.distortion, undistorted), {}};
+  foot.d_pixel_d_undistorted = FocalLengths(camera).asDiagonal() * foot.distorted.d_point_d_undistorted;
   return foot;
 }
 
-Eigen::Vector2d Pixel(const CameraParameters& camera, const Foot& foot) {
-  return camera.head<2>().cwiseProduct(foot.distorted.point) + camera.segment<2>(2);
+Eigen::Vector2d Pixel(const Camera& camera, const Foot& foot) {
+  return FocalLengths(camera).cwiseProduct(foot.distorted.point) + Centre(camera);
 }
 
 // Two equations for x: it lies on the line, and its pixel lies on the ray through the point.
-std::optional<Foot> FindFoot(const CameraParameters& camera, const Eigen::Vector3d& normal,
+std::optional<Foot> FindFoot(const Camera& camera, const Eigen::Vector3d& normal,
                              const Eigen::Vector2d& point_px, const Eigen::Vector2d& across_px) {
-  const Distortion k = camera.tail<8>();
   const Eigen::Vector2d line = normal.head<2>();
-  Eigen::Vector2d x = (point_px - camera.segment<2>(2)).cwiseQuotient(camera.head<2>());
+  Eigen::Vector2d x =
+      UndistortIdeally(camera.lens, (point_px - Centre(camera)).cwiseQuotient(FocalLengths(camera)));
   x -= line * (line.dot(x) + normal.z()) / line.squaredNorm();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Foot foot = EvaluateFoot(camera, k, x);
+    const Foot foot = EvaluateFoot(camera, x);
     Eigen::Matrix2d equations;
     equations << line.transpose(), across_px.transpose() * foot.d_pixel_d_undistorted;
     const Eigen::Vector2d error(line.dot(x) + normal.z(), across_px.dot(Pixel(camera, foot) - point_px));
@@ -48,7 +51,7 @@ std::optional<Foot> FindFoot(const CameraParameters& camera, const Eigen::Vector
 
 }  // namespace
 
-std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const Eigen::Vector3d& normal,
+std::optional<EdgeDistance> DistanceToEdge(const Camera& camera, const Eigen::Vector3d& normal,
                                            const Eigen::Vector2d& point_px,
                                            const Eigen::Vector2d& direction_px) {
   const Eigen::Vector2d across_px(-direction_px.y(), direction_px.x());
@@ -68,7 +71,7 @@ std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const
   result.d_distance_d_camera.head<2>() = -scale * w.cwiseProduct(foot->distorted.point).transpose();
   result.d_distance_d_camera.segment<2>(2) = -scale * w.transpose();
   result.d_distance_d_camera.tail<8>() =
-      -scale * w.cwiseProduct(camera.head<2>()).transpose() * foot->distorted.d_point_d_coefficients;
+      -scale * w.cwiseProduct(FocalLengths(camera)).transpose() * foot->distorted.d_point_d_coefficients;
   if (!result.d_distance_d_camera.allFinite()) return std::nullopt;
   return result;
 }

@@ -21,7 +21,7 @@ struct EdgeDistance {
 // normal.(x, 1) = 0 whose distorted projection lies on the ray point_px - r direction_px; exact for any lens
 // model, by Newton on x. Nothing where that has no solution near the point (the edge parallel to
 // direction_px, or a lens that folds over).
-std::optional<EdgeDistance> DistanceToEdge(const CameraParameters& camera, const Eigen::Vector3d& normal,
+std::optional<EdgeDistance> DistanceToEdge(const Camera& camera, const Eigen::Vector3d& normal,
                                            const Eigen::Vector2d& point_px,
                                            const Eigen::Vector2d& direction_px);
 

@@ -37,7 +37,7 @@ std::optional<SeenLeg> SeeLeg(const Leg& leg, const Rigid3& camera_from_base,
 std::optional<Eigen::Vector2d> Image(const Camera& camera, const Eigen::Vector3d& x_in_camera) {
   if (x_in_camera.z() <= 0) return std::nullopt;
   const Eigen::Vector2d x = x_in_camera.hnormalized();
-  if (x.norm() >= MonotonicRadius(camera.distortion)) return std::nullopt;
+  if (x.norm() >= MonotonicRadius(camera.lens, camera.distortion)) return std::nullopt;
   return ProjectNormalised(camera, x);
 }
 
@@ -46,7 +46,7 @@ Eigen::Vector2d OutwardInImage(const Camera& camera, const Eigen::Vector3d& norm
                                const Eigen::Vector3d& x_in_camera) {
   const Eigen::Matrix2d d_pixel =
       Eigen::Vector2d(camera.fx_px, camera.fy_px).asDiagonal() *
-      DistortWithJacobians(camera.distortion, x_in_camera.hnormalized()).d_point_d_undistorted;
+      DistortWithJacobians(camera.lens, camera.distortion, x_in_camera.hnormalized()).d_point_d_undistorted;
   return (d_pixel.transpose().inverse() * normal.head<2>()).normalized();
 }
 
@@ -58,7 +58,7 @@ std::optional<Eigen::Matrix<double, 1, 6>> ShiftByTwist(const Camera& camera, co
   const std::optional<Eigen::Vector2d> point_px = Image(camera, end_in_camera);
   if (!point_px) return std::nullopt;
   const auto distance =
-      DistanceToEdge(ParametersOf(camera), normal, *point_px, OutwardInImage(camera, normal, end_in_camera));
+      DistanceToEdge(camera, normal, *point_px, OutwardInImage(camera, normal, end_in_camera));
   if (!distance) return std::nullopt;
   const Eigen::Matrix3d d_normal =
       OutlineJacobian(leg.joints_in_camera[0], leg.joints_in_camera[1], normal).middleCols<3>(3);

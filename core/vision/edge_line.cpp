@@ -22,7 +22,7 @@ struct LineEquations {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
 };
 
-LineEquations EquationsAt(const CameraParameters& camera, const Eigen::Vector3d& normal,
+LineEquations EquationsAt(const Camera& camera, const Eigen::Vector3d& normal,
                           const Eigen::Matrix<double, 3, 2>& tangents,
                           const std::vector<EdgeSample>& samples) {
   LineEquations equations;
@@ -62,11 +62,10 @@ EdgeLine FitEdgeLine(const Camera& camera, const Eigen::Vector3d& start_normal,
     line.samples = samples;
     return line;
   }
-  const CameraParameters parameters = ParametersOf(camera);
   LineEquations equations;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(line.normal);
-    equations = EquationsAt(parameters, line.normal, tangents, samples);
+    equations = EquationsAt(camera, line.normal, tangents, samples);
     line.normal =
         (line.normal + tangents * equations.information.ldlt().solve(equations.moment)).normalized();
     line.normal_covariance = tangents * equations.information.inverse() * tangents.transpose();

@@ -163,7 +163,7 @@ std::optional<ImagePointOnEdge> EdgePointNear(const Camera& camera, const Eigen:
   const Eigen::Vector2d line = normal.head<2>();
   Eigen::Vector2d x = x_in_camera.hnormalized();
   x -= line * (line.dot(x) + normal.z()) / line.squaredNorm();
-  const DistortedPoint distorted = DistortWithJacobians(camera.distortion, x);
+  const DistortedPoint distorted = DistortWithJacobians(camera.lens, camera.distortion, x);
   const Eigen::Vector2d focal(camera.fx_px, camera.fy_px);
   const Eigen::Matrix2d d_pixel = focal.asDiagonal() * distorted.d_point_d_undistorted;
   if (!(d_pixel.determinant() > 0)) return std::nullopt;

@@ -98,7 +98,8 @@ TEST_F(CalibrateRefuses, BadUsageNamingTheOptionAndTheHelp) {
   refused({"--fold", "3"}, "unknown option --fold;");
   refused({"another-session"}, "unexpected argument another-session");
   refused({"--format", "xml"}, "--format: \"xml\" is none of table, json");
-  refused({"--lens", "fisheye"}, "--lens: \"fisheye\" is none of pinhole, brown-conrady, rational");
+  refused({"--lens", "plumb_bob"},
+          "--lens: \"plumb_bob\" is none of pinhole, brown-conrady, rational, fisheye");
   refused({"--hold", "radii,wheels"}, "--hold: \"wheels\" is none of focal-length, ");
   refused({"--known", "radius=0.1"}, "--known: \"radius\" is none of ");
   refused({"--known", "radius_m=-1"}, "--known: radius_m is \"-1\"");

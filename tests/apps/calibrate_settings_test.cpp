@@ -136,7 +136,7 @@ TEST(CalibrateSettings, OptionsAreToldAsTheyWouldBeTyped) {
 
 TEST(CalibrateSettings, LensNamesNameLenses) {
   for (const std::string& name : LensNames()) EXPECT_EQ(LensName(LensFromName(name).value()), name);
-  EXPECT_EQ(LensFromName("fisheye"), std::nullopt);
+  EXPECT_EQ(LensFromName("plumb_bob"), std::nullopt);
 }
 
 }  // namespace

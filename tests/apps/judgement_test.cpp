@@ -30,7 +30,7 @@ ImageOutcome GoodImage(int number) {
 CalibrationRun GoodRun() {
   CalibrationRun run;
   run.session.robot = DesktopHexapod();
-  run.session.camera = DesktopCamera(false);
+  run.session.camera = run.result.guessed_camera = DesktopCamera(false);
   for (int i = 0; i < 12; ++i) run.result.images.push_back(GoodImage(i));
   LegCalibration& calibration = run.result.calibration;
   calibration.status = CalibrationStatus::kConverged;

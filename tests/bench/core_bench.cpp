@@ -63,19 +63,21 @@ void BM_InverseKinematics(benchmark::State& state) {
 }
 BENCHMARK(BM_InverseKinematics);
 
-void BM_Undistort(benchmark::State& state, const Distortion& distortion) {
+void BM_Undistort(benchmark::State& state, LensModel lens, const Distortion& distortion) {
   std::mt19937_64 generator(1);
   std::array<Eigen::Vector2d, kCases> points;
   for (Eigen::Vector2d& point : points) {
-    point = Distort<double>(distortion, UniformVector(generator, -0.5, 0.5).head<2>());
+    point = Distort<double>(lens, distortion, UniformVector(generator, -0.5, 0.5).head<2>());
   }
   size_t i = 0;
-  while (state.KeepRunning()) benchmark::DoNotOptimize(Undistort(distortion, points[i++ % kCases]));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(Undistort(lens, distortion, points[i++ % kCases]));
 }
-BENCHMARK_CAPTURE(BM_Undistort, brown_conrady,
+BENCHMARK_CAPTURE(BM_Undistort, brown_conrady, LensModel::kBrownConrady,
                   (Distortion() << -0.25, 0.09, 0.0008, -0.0006, -0.01, 0, 0, 0).finished());
-BENCHMARK_CAPTURE(BM_Undistort, rational,
+BENCHMARK_CAPTURE(BM_Undistort, rational, LensModel::kRational,
                   (Distortion() << 0.6, 0.04, 0.0008, -0.0006, 0.002, 0.9, 0.1, 0.005).finished());
+BENCHMARK_CAPTURE(BM_Undistort, fisheye, LensModel::kFisheye,
+                  (Distortion() << -0.05, 0.02, -0.01, 0.003, 0, 0, 0, 0).finished());
 
 }  // namespace
 }  // namespace legible

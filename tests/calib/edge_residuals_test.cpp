@@ -20,15 +20,17 @@ constexpr int kUnknowns = kCameraParameterCount + 7 + 4;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;  // camera, A, b, R, shading
 using Residuals = Eigen::Matrix<double, 2 * kSamples, 1>;
 
-CameraParameters DistortedCamera() {
-  CameraParameters camera;
-  camera << 1246.83, 1249.57, 654.12, 467.63, -0.25, 0.09, 0.0008, -0.0006, -0.01, 0.02, 0.01, 0.001;
+Camera DistortedCamera() {
+  Camera camera{1280, 960, 1246.83, 1249.57, 654.12, 467.63, LensModel::kRational, {}};
+  camera.distortion << -0.25, 0.09, 0.0008, -0.0006, -0.01, 0.02, 0.01, 0.001;
   return camera;
 }
 
+Camera CameraOf(const Unknowns& u) { return WithParameters(DistortedCamera(), u.head<12>()); }
+
 Unknowns RandomUnknowns(std::mt19937_64& generator) {
   Unknowns u;
-  u << DistortedCamera(), Eigen::Vector3d(0, 0, 0.9) + UniformVector(generator, -0.2, 0.2),
+  u << ParametersOf(DistortedCamera()), Eigen::Vector3d(0, 0, 0.9) + UniformVector(generator, -0.2, 0.2),
       Eigen::Vector3d(0.1, -0.2, 0.8) + UniformVector(generator, -0.1, 0.1), Uniform(generator, 0.005, 0.03),
       0.1, -0.05, -0.08, 0.03;
   return u;
@@ -48,7 +50,7 @@ std::vector<EdgeObservation> RandomEdges(std::mt19937_64& generator, const Unkno
       const Eigen::Vector2d foot = on_axis - line * normal.dot(on_axis.homogeneous()) / line.squaredNorm();
       const Eigen::Vector2d direction = (line + UniformVector(generator, -0.2, 0.2).head<2>()).normalized();
       const Eigen::Vector2d point =
-          PixelOf<double>(DistortedCamera(), foot) + Uniform(generator, -3, 3) * direction;
+          ProjectNormalised(DistortedCamera(), foot) + Uniform(generator, -3, 3) * direction;
       observation.samples.push_back({point, direction, Uniform(generator, 0.1, 0.5)});
     }
     edges.push_back(observation);
@@ -65,7 +67,7 @@ std::vector<WhitenedEdge> Whitened(const std::vector<EdgeObservation>& edges) {
 }
 
 std::optional<EdgeResiduals> Evaluate(const Unknowns& u, const std::vector<WhitenedEdge>& edges) {
-  return EvaluateEdges(u.head<12>(), u.segment<3>(12), u.segment<3>(15), u[18], u.tail<4>(), edges);
+  return EvaluateEdges(CameraOf(u), u.segment<3>(12), u.segment<3>(15), u[18], u.tail<4>(), edges);
 }
 
 Eigen::Matrix<double, 2 * kSamples, kUnknowns> Derivatives(const EdgeResiduals& residuals) {
@@ -105,8 +107,8 @@ TEST(EdgeResiduals, ValuesAndDerivativesAgreeWithJetsThroughTheOutline) {
         for (size_t s = 0; s < kSamples; ++s) {
           const EdgeSample& sample = observations[edge].samples[s];
           result[static_cast<Eigen::Index>(edge * kSamples + s)] =
-              DistanceByNewton<T>(u.template head<12>(), normals[edge], sample.point_px, sample.normal_px,
-                                  at.head<12>(), normal_values[edge]) -
+              DistanceByNewton<T>(DistortedCamera(), u.template head<12>(), normals[edge], sample.point_px,
+                                  sample.normal_px, normal_values[edge]) -
               u[19 + 2 * static_cast<Eigen::Index>(edge)] -
               u[20 + 2 * static_cast<Eigen::Index>(edge)] *
                   T(PlacesAlong(observations[edge])[static_cast<int>(s)]);
@@ -136,7 +138,7 @@ TEST(EdgeResiduals, EdgeDistancesAreTheUnwhitenedResidualsWithoutShading) {
     for (EdgeSample& sample : observation.samples) sample.sigma_px = 1;
     const std::vector<WhitenedEdge> edges = {{observation, {}, Eigen::VectorXd::Ones(kSamples)}};
     const auto distances =
-        EdgeDistances(at.head<12>(), at.segment<3>(12), at.segment<3>(15), at[18], observation);
+        EdgeDistances(CameraOf(at), at.segment<3>(12), at.segment<3>(15), at[18], observation);
     ASSERT_TRUE(distances);
     EXPECT_TRUE(AreNear(*distances, Evaluate(at, edges).value().residual, 1e-12));
   }
@@ -148,7 +150,7 @@ TEST(EdgeResiduals, HaveNoValueWithTheCameraInsideTheLeg) {
   const std::vector<EdgeObservation> observations = RandomEdges(generator, at);
   at[18] = 2;
   EXPECT_FALSE(Evaluate(at, Whitened(observations)));
-  EXPECT_FALSE(EdgeDistances(at.head<12>(), at.segment<3>(12), at.segment<3>(15), at[18], observations[0]));
+  EXPECT_FALSE(EdgeDistances(CameraOf(at), at.segment<3>(12), at.segment<3>(15), at[18], observations[0]));
 }
 
 TEST(WhitenedEdge, IsASquareRootOfTheInverseCovariance) {

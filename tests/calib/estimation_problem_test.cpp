@@ -74,10 +74,12 @@ TEST(DrawnBase, IsZeroWhereTheDrawingIsTheTruth) {
 }
 
 TEST(ParameterName, NamesEveryParameterInOrder) {
-  EXPECT_EQ(ParameterName(0), "camera.fx_px");
-  EXPECT_EQ(ParameterName(8), "camera.k3");
-  EXPECT_EQ(ParameterName(FirstParameterOfLeg(0)), "legs[1].base_joint_in_camera_m.x");
-  EXPECT_EQ(ParameterName(FirstParameterOfLeg(5) + leg_parameter::kRadius), "legs[6].radius_m");
+  for (const LensModel lens : {LensModel::kRational, LensModel::kFisheye}) {
+    EXPECT_EQ(ParameterName(lens, 0), "camera.fx_px");
+    EXPECT_EQ(ParameterName(lens, lens == LensModel::kFisheye ? 6 : 8), "camera.k3");
+    EXPECT_EQ(ParameterName(lens, FirstParameterOfLeg(0)), "legs[1].base_joint_in_camera_m.x");
+    EXPECT_EQ(ParameterName(lens, FirstParameterOfLeg(5) + leg_parameter::kRadius), "legs[6].radius_m");
+  }
 }
 
 TEST(Solve, FindsTheTruthOfExactObservationsAgain) {

@@ -102,7 +102,7 @@ class LegInOneImage : public testing::Test {
     const Leg& leg = session_.true_robot.legs[kLeg];
     leg_ << session_.true_camera_from_base * leg.base_joint_m, leg.platform_joint_m, leg.radius_m,
         leg.joint_offset_m, 0.05, -0.02, -0.03, 0.01;
-    camera_ = ParametersOf(session_.true_camera);
+    camera_ = session_.true_camera;
     camera_from_platform_ = session_.true_camera_from_base * session_.true_base_from_platform[0];
   }
 
@@ -116,12 +116,12 @@ class LegInOneImage : public testing::Test {
     const auto evaluate = [&](const Unknowns& u) {
       const LegParameters leg = u.template segment<kLegParameterCount>(kCameraParameterCount);
       const Eigen::Matrix<double, Pose, 1> moved = u.template tail<Pose>();
-      return EvaluateLeg(u.template head<kCameraParameterCount>(), leg, TipOf(unit, leg, moved.data()),
-                         observation_)
+      return EvaluateLeg(WithParameters(camera_, u.template head<kCameraParameterCount>()), leg,
+                         TipOf(unit, leg, moved.data()), observation_)
           .value();
     };
     Unknowns at;
-    at << camera_, leg_, displacement;
+    at << ParametersOf(camera_), leg_, displacement;
     const LegResiduals found = evaluate(at);
     Eigen::Matrix<double, kRows, kCount> derivative;
     derivative << found.d_camera, found.d_leg, found.d_pose;
@@ -138,7 +138,7 @@ class LegInOneImage : public testing::Test {
   SyntheticSession session_;
   LegObservation observation_;
   LegParameters leg_;
-  CameraParameters camera_;
+  Camera camera_;
   Rigid3 camera_from_platform_;
 };
 

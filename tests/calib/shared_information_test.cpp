@@ -16,13 +16,14 @@ namespace {
 Eigen::VectorXd ResidualsAt(const EstimationProblem& problem, const Eigen::VectorXd& displacement) {
   SharedParameters shared = problem.shared;
   for (int i = 0; i < kSharedParameterCount; ++i) Parameter(shared, i) += displacement[i];
+  const Camera camera = WithParameters(problem.camera, shared.camera);
   std::vector<double> all;
   const auto placed = [&](size_t group) -> Vector6d {
     return displacement.tail(6 * static_cast<Eigen::Index>(problem.tag_placements.size() - group)).head<6>();
   };
   const auto add_tag = [&](const TagObservation& tag, const Rigid3& platform, const Vector6d& posed) {
-    const auto r = EvaluateTag(shared.camera, problem.tag_placements[tag.group], placed(tag.group), platform,
-                               posed, tag);
+    const auto r =
+        EvaluateTag(camera, problem.tag_placements[tag.group], placed(tag.group), platform, posed, tag);
     all.insert(all.end(), r->residual.begin(), r->residual.end());
   };
   Eigen::Index first = kSharedParameterCount;
@@ -30,7 +31,7 @@ Eigen::VectorXd ResidualsAt(const EstimationProblem& problem, const Eigen::Vecto
     for (const LegObservation& observation : unit.legs) {
       const LegParameters& leg = shared.legs[static_cast<size_t>(observation.leg)];
       const LegTip tip = TipOf(unit, leg, displacement.data() + first);
-      const Eigen::VectorXd rows = EvaluateLeg(shared.camera, leg, tip, observation).value().residual;
+      const Eigen::VectorXd rows = EvaluateLeg(camera, leg, tip, observation).value().residual;
       all.insert(all.end(), rows.begin(), rows.end());
     }
     for (const TagObservation& tag : unit.tags)

@@ -64,7 +64,9 @@ class Experiment {
   const Eigen::VectorXd& bound() const { return bound_; }
   // Free parameters less the gauge.
   Eigen::Index rank() const { return basis_.cols(); }
-  const std::string& Name(Eigen::Index i) const { return ParameterName(free_[static_cast<size_t>(i)]); }
+  std::string Name(Eigen::Index i) const {
+    return ParameterName(problem_.camera.lens, free_[static_cast<size_t>(i)]);
+  }
 
   std::vector<Estimate> Run(int count) const {
     std::vector<Estimate> estimates(static_cast<size_t>(count));
@@ -254,6 +256,14 @@ TEST(CalibrationStatistics, EstimatesReachTheBoundWithTagsAsObservations) {
   SyntheticOptions options;
   options.image_count = 20;
   ExpectEfficientAndHonest(Experiment(options, SyntheticTagOptions()), 150, 0.2);
+}
+
+TEST(CalibrationStatistics, EstimatesReachTheBoundThroughAFisheye) {
+  SyntheticOptions options;
+  options.image_count = 20;
+  options.camera = DesktopFisheye();
+  options.camera_from_base = LookAt({0.52, 0.074, 0.3}, {0, 0, 0.13});
+  ExpectEfficientAndHonest(Experiment{options}, 150, 0.2);
 }
 
 TEST(CalibrationStatistics, OutliersInAFifthOfTheSamplesCostLessThanHalfTheBound) {

@@ -39,12 +39,12 @@ class OneTag : public testing::TestWithParam<TagCarrier> {
     tag_.sigma_px = 0.3;
   }
 
-  TagResiduals At(const CameraParameters& camera, const Vector6d& placed, const Vector6d& posed) const {
+  TagResiduals At(const Camera& camera, const Vector6d& placed, const Vector6d& posed) const {
     return EvaluateTag(camera, placement_, placed, platform_, posed, tag_).value();
   }
 
   std::mt19937_64 generator_;
-  CameraParameters camera_ = ParametersOf(DesktopCamera(true));
+  Camera camera_ = DesktopCamera(true);
   TagPlacement placement_;
   Rigid3 platform_;
   TagObservation tag_;
@@ -62,11 +62,12 @@ TEST_P(OneTag, DerivativesAgreeWithNumericOnesAtAnyDisplacement) {
     const Vector6d placed = RandomDisplacement(generator_, size),
                    posed = RandomDisplacement(generator_, size);
     const TagResiduals found = At(camera_, placed, posed);
-    ExpectSameJacobian(found.d_camera, NumericJacobian(
-                                           [&](const CameraParameters& camera) -> Rows {
-                                             return At(camera, placed, posed).residual;
-                                           },
-                                           camera_));
+    ExpectSameJacobian(found.d_camera,
+                       NumericJacobian(
+                           [&](const CameraParameters& camera) -> Rows {
+                             return At(WithParameters(camera_, camera), placed, posed).residual;
+                           },
+                           ParametersOf(camera_)));
     ExpectSameJacobian(
         found.d_placement,
         NumericJacobian([&](const Vector6d& moved) -> Rows { return At(camera_, moved, posed).residual; },

@@ -3,9 +3,9 @@
 namespace legible {
 namespace {
 
-std::bitset<kSharedParameterCount> FreeParameters(const TruthProblemOptions& options) {
+std::bitset<kSharedParameterCount> FreeParameters(LensModel lens, const TruthProblemOptions& options) {
   std::bitset<kSharedParameterCount> free;
-  for (size_t i = 0; i < 4 + static_cast<size_t>(LensModel::kBrownConrady); ++i) free.set(i);
+  for (size_t i = 0; i < 4 + static_cast<size_t>(lens); ++i) free.set(i);
   for (int leg = 0; leg < kLegCount; ++leg) {
     const size_t first = static_cast<size_t>(FirstParameterOfLeg(leg));
     for (size_t i = 0; i < 3; ++i) {
@@ -70,8 +70,9 @@ EstimationProblem ProblemAtTruth(const SyntheticSession& session,
                                  const std::vector<ImageObservation>& observations,
                                  const TruthProblemOptions& options) {
   EstimationProblem problem;
+  problem.camera = session.true_camera;
   problem.shared = TrueParameters(session);
-  problem.free = FreeParameters(options);
+  problem.free = FreeParameters(session.true_camera.lens, options);
   for (size_t i = 0; i < kLegCount; ++i) {
     problem.drawn_base_joints[i] = session.nominal_robot.legs[i].base_joint_m;
     problem.drawn_platform_joints[i] = session.nominal_robot.legs[i].platform_joint_m;

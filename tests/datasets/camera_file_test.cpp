@@ -51,7 +51,8 @@ TEST(CameraFile, RoundTripIsExactForEveryLens) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "camera.yaml";
   std::mt19937_64 generator = TestGenerator();
-  for (const LensModel lens : {LensModel::kPinhole, LensModel::kBrownConrady, LensModel::kRational}) {
+  for (const LensModel lens :
+       {LensModel::kPinhole, LensModel::kFisheye, LensModel::kBrownConrady, LensModel::kRational}) {
     Camera camera = DesktopCamera(false);
     camera.lens = lens;
     camera.fx_px = Uniform(generator, 1000, 2000);
@@ -136,10 +137,10 @@ TEST(CameraFile, DistortionHasTheCoefficientsOfItsModel) {
             Complaint(file, 12,
                       "distortion_coefficients has 5 values, and rational_polynomial has 8; "
                       "give as many as the model has, or name another distortion_model"));
-  EXPECT_EQ(ReadComplaint(folder, "plumb_bob", "equidistant"),
+  EXPECT_EQ(ReadComplaint(folder, "plumb_bob", "omnidirectional"),
             Complaint(file, 10,
-                      "distortion_model is \"equidistant\", a lens model not known here; "
-                      "give plumb_bob, rational_polynomial or none"));
+                      "distortion_model is \"omnidirectional\", a lens model not known here; "
+                      "give plumb_bob, rational_polynomial, equidistant or none"));
 }
 
 TEST(CameraFile, SizesAreWholeAndPositive) {

@@ -80,8 +80,9 @@ class Renderer {
       block = centre ? Brightness(*centre) : options_.background;
       return;
     }
-    const Eigen::Matrix2d d_pixel = Eigen::Vector2d(camera_.fx_px, camera_.fy_px).asDiagonal() *
-                                    DistortWithJacobians(camera_.distortion, *centre).d_point_d_undistorted;
+    const Eigen::Matrix2d d_pixel =
+        Eigen::Vector2d(camera_.fx_px, camera_.fy_px).asDiagonal() *
+        DistortWithJacobians(camera_.lens, camera_.distortion, *centre).d_point_d_undistorted;
     const Eigen::Matrix2d d_undistorted = d_pixel.inverse();
     for (int row = 0; row < kFine; ++row)
       for (int column = 0; column < kFine; ++column) {

@@ -21,28 +21,36 @@ Distortion Coefficients(std::initializer_list<double> values) {
   return k;
 }
 
+Camera TestCamera(LensModel lens, const Distortion& k) {
+  Camera camera{.width_px = 1280, .height_px = 960, .fx_px = 1250, .fy_px = 1247, .cx_px = 652, .cy_px = 467};
+  camera.lens = lens;
+  camera.distortion = k;
+  return camera;
+}
+
 // Lenses as they are calibrated in practice, from nearly none to a wide angle.
-const Distortion kMild = Coefficients({-0.12, 0.05, 4e-4, -3e-4, -0.01});
-const Distortion kBarrel = Coefficients({-0.35, 0.14, 1e-3, -5e-4, -0.025});
-const Distortion kPincushion = Coefficients({0.2, 0.05, -1e-3, 2e-3, 0.01});
-const Distortion kRational = Coefficients({0.6, 0.04, 5e-4, -7e-4, 0.002, 0.9, 0.1, 0.005});
+const Distortion kBarrelCoefficients = Coefficients({-0.35, 0.14, 1e-3, -5e-4, -0.025});
+const Camera kMild = TestCamera(LensModel::kBrownConrady, Coefficients({-0.12, 0.05, 4e-4, -3e-4, -0.01}));
+const Camera kBarrel = TestCamera(LensModel::kBrownConrady, kBarrelCoefficients);
+const Camera kPincushion = TestCamera(LensModel::kBrownConrady, Coefficients({0.2, 0.05, -1e-3, 2e-3, 0.01}));
+const Camera kRational =
+    TestCamera(LensModel::kRational, Coefficients({0.6, 0.04, 5e-4, -7e-4, 0.002, 0.9, 0.1, 0.005}));
+const Camera kFisheye = TestCamera(LensModel::kFisheye, Coefficients({-0.013, 0.011, -0.009, 0.002}));
+const Camera kStrongFisheye = TestCamera(LensModel::kFisheye, Coefficients({0.08, -0.04, 0.02, -0.006}));
+const std::vector<Camera> kLenses = {kMild, kBarrel, kPincushion, kRational, kFisheye, kStrongFisheye};
+const std::vector<LensModel> kModels = {LensModel::kPinhole, LensModel::kFisheye, LensModel::kBrownConrady,
+                                        LensModel::kRational};
 
 // Any lens: large radial terms, with folds and poles at any radius, tangential ones up to ten times the
 // usual.
 Distortion RandomDistortion(std::mt19937_64& generator, LensModel lens) {
   Distortion k = Distortion::Zero();
   for (double& coefficient : k) coefficient = Uniform(generator, -0.6, 0.6);
-  k[2] = Uniform(generator, -0.01, 0.01);
-  k[3] = Uniform(generator, -0.01, 0.01);
+  const double others = lens == LensModel::kFisheye ? 0.6 : 0.01;
+  k[2] = Uniform(generator, -others, others);
+  k[3] = Uniform(generator, -others, others);
   for (int i = static_cast<int>(lens); i < k.size(); ++i) k[i] = 0;
   return k;
-}
-
-Camera TestCamera(const Distortion& k) {
-  Camera camera{.width_px = 1280, .height_px = 960, .fx_px = 1250, .fy_px = 1247, .cx_px = 652, .cy_px = 467};
-  camera.lens = k.tail<3>().isZero() ? LensModel::kBrownConrady : LensModel::kRational;
-  camera.distortion = k;
-  return camera;
 }
 
 Vector2d RandomPoint(std::mt19937_64& generator, double largest_radius) {
@@ -64,35 +72,49 @@ cv::Mat1d OpenCvCoefficients(const Camera& camera) {
   return coefficients;
 }
 
+Vector2d ProjectByOpenCv(const Camera& camera, const Eigen::Vector3d& x) {
+  const std::vector<cv::Point3d> points = {{x[0], x[1], x[2]}};
+  const cv::Vec3d zero(0, 0, 0);
+  std::vector<cv::Point2d> pixels;
+  if (camera.lens == LensModel::kFisheye)
+    cv::fisheye::projectPoints(points, pixels, zero, zero, OpenCvMatrix(camera), OpenCvCoefficients(camera));
+  else
+    cv::projectPoints(points, zero, zero, OpenCvMatrix(camera), OpenCvCoefficients(camera), pixels);
+  return {pixels[0].x, pixels[0].y};
+}
+
+Vector2d UnprojectByOpenCv(const Camera& camera, const Vector2d& pixel) {
+  const cv::TermCriteria to_the_end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 1000, 1e-14);
+  const std::vector<cv::Point2d> pixels = {{pixel[0], pixel[1]}};
+  std::vector<cv::Point2d> points;
+  if (camera.lens == LensModel::kFisheye)
+    cv::fisheye::undistortPoints(pixels, points, OpenCvMatrix(camera), OpenCvCoefficients(camera));
+  else
+    cv::undistortPoints(pixels, points, OpenCvMatrix(camera), OpenCvCoefficients(camera), cv::noArray(),
+                        cv::noArray(), to_the_end);
+  return {points[0].x, points[0].y};
+}
+
 TEST(Camera, ProjectAgreesWithOpenCv) {
   std::mt19937_64 generator = TestGenerator();
-  for (const Distortion& k : {kMild, kBarrel, kPincushion, kRational}) {
-    const Camera camera = TestCamera(k);
+  for (const Camera& camera : kLenses) {
+    const double reach = camera.lens == LensModel::kFisheye ? 5 : 0.8;
     for (int i = 0; i < 100; ++i) {
-      const Eigen::Vector3d x = Uniform(generator, 0.3, 3) * InFront(RandomPoint(generator, 0.8));
-      const std::vector<cv::Point3d> points = {{x[0], x[1], x[2]}};
-      std::vector<cv::Point2d> pixels;
-      cv::projectPoints(points, cv::Vec3d(0, 0, 0), cv::Vec3d(0, 0, 0), OpenCvMatrix(camera),
-                        OpenCvCoefficients(camera), pixels);
-      EXPECT_TRUE(AreNear(Project(camera, x), Vector2d(pixels[0].x, pixels[0].y), 1e-11));
+      const Eigen::Vector3d x = Uniform(generator, 0.3, 3) * InFront(RandomPoint(generator, reach));
+      EXPECT_TRUE(AreNear(Project(camera, x), ProjectByOpenCv(camera, x), 1e-11));
     }
   }
 }
 
 TEST(Camera, UnprojectAgreesWithOpenCv) {
   std::mt19937_64 generator = TestGenerator();
-  const cv::TermCriteria to_the_end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 1000, 1e-14);
-  for (const Distortion& k : {kMild, kBarrel, kPincushion, kRational}) {
-    const Camera camera = TestCamera(k);
+  for (const Camera& camera : kLenses) {
+    // cv::fisheye stops where a step in theta is below 1e-8; Newton's steps square the error.
     for (int i = 0; i < 100; ++i) {
       const Vector2d pixel(Uniform(generator, 0, camera.width_px), Uniform(generator, 0, camera.height_px));
-      const std::vector<cv::Point2d> pixels = {{pixel[0], pixel[1]}};
-      std::vector<cv::Point2d> points;
-      cv::undistortPoints(pixels, points, OpenCvMatrix(camera), OpenCvCoefficients(camera), cv::noArray(),
-                          cv::noArray(), to_the_end);
       const std::optional<Vector2d> found = Unproject(camera, pixel);
       ASSERT_TRUE(found.has_value());
-      EXPECT_TRUE(AreNear(*found, Vector2d(points[0].x, points[0].y), 1e-12));
+      EXPECT_TRUE(AreNear(*found, UnprojectByOpenCv(camera, pixel), 1e-12));
     }
   }
 }
@@ -100,14 +122,13 @@ TEST(Camera, UnprojectAgreesWithOpenCv) {
 // --- Projection and its inverse. -------------------------------------------------------------------------
 
 TEST(Camera, PinholeProjectsByFocalLengthOverDepth) {
-  const Camera camera = TestCamera(Distortion::Zero());
+  const Camera camera = TestCamera(LensModel::kPinhole, Distortion::Zero());
   EXPECT_TRUE(AreNear(Project(camera, {0.2, -0.1, 2}), Vector2d(652 + 125, 467 - 62.35), 1e-12));
 }
 
 TEST(Camera, UnprojectInvertsProject) {
   std::mt19937_64 generator = TestGenerator();
-  for (const Distortion& k : {kMild, kBarrel, kPincushion, kRational}) {
-    const Camera camera = TestCamera(k);
+  for (const Camera& camera : kLenses) {
     for (int i = 0; i < 100; ++i) {
       const Vector2d x = RandomPoint(generator, 0.8);
       const std::optional<Vector2d> found = Unproject(camera, Project(camera, 1.7 * InFront(x)));
@@ -118,29 +139,68 @@ TEST(Camera, UnprojectInvertsProject) {
 }
 
 TEST(Camera, ProjectRefusesPointsThatAreNotInFront) {
-  const Camera camera = TestCamera(kMild);
-  EXPECT_THROW(Project(camera, {0.1, 0.1, 0}), std::invalid_argument);
-  EXPECT_THROW(Project(camera, {0.1, 0.1, -1}), std::invalid_argument);
-  EXPECT_THROW(Project(camera, {0.1, 0.1, NAN}), std::invalid_argument);
+  EXPECT_THROW(Project(kMild, {0.1, 0.1, 0}), std::invalid_argument);
+  EXPECT_THROW(Project(kMild, {0.1, 0.1, -1}), std::invalid_argument);
+  EXPECT_THROW(Project(kMild, {0.1, 0.1, NAN}), std::invalid_argument);
 }
 
 // --- Derivatives. ----------------------------------------------------------------------------------------
 
 TEST(DistortWithJacobians, MatchesJetsAndCentralDifferences) {
   std::mt19937_64 generator = TestGenerator();
-  for (int i = 0; i < 200; ++i) {
-    const Distortion k = 0.1 * RandomDistortion(generator, LensModel::kRational);
-    const Vector2d x = RandomPoint(generator, 1);
-    const DistortedPoint found = DistortWithJacobians(k, x);
-    const auto by_point = [&](const auto& point) { return Distort(k, point); };
-    const auto by_coefficients = [&]<typename T>(const Eigen::Matrix<T, 8, 1>& coefficients) {
-      return Distort(coefficients, Eigen::Matrix<T, 2, 1>(x.cast<T>()));
-    };
-    EXPECT_EQ(found.point, by_point(x));
-    EXPECT_TRUE(AreNear(found.d_point_d_undistorted, JetJacobian(by_point, x), 1e-14));
-    EXPECT_TRUE(AreNear(found.d_point_d_undistorted, NumericJacobian(by_point, x), 1e-11));
-    EXPECT_TRUE(AreNear(found.d_point_d_coefficients, JetJacobian(by_coefficients, k), 1e-14));
-    EXPECT_TRUE(AreNear(found.d_point_d_coefficients, NumericJacobian(by_coefficients, k), 1e-11));
+  for (const LensModel lens : {LensModel::kRational, LensModel::kFisheye})
+    for (int i = 0; i < 200; ++i) {
+      const Distortion k = 0.1 * RandomDistortion(generator, lens);
+      const Vector2d x = RandomPoint(generator, 1);
+      const DistortedPoint found = DistortWithJacobians(lens, k, x);
+      const auto by_point = [&](const auto& point) { return Distort(lens, k, point); };
+      const auto by_coefficients = [&]<typename T>(const Eigen::Matrix<T, 8, 1>& coefficients) {
+        return Distort(lens, coefficients, Eigen::Matrix<T, 2, 1>(x.cast<T>()));
+      };
+      EXPECT_EQ(found.point, by_point(x));
+      EXPECT_TRUE(AreNear(found.d_point_d_undistorted, JetJacobian(by_point, x), 1e-14));
+      EXPECT_TRUE(AreNear(found.d_point_d_undistorted, NumericJacobian(by_point, x), 1e-11));
+      EXPECT_TRUE(AreNear(found.d_point_d_coefficients, JetJacobian(by_coefficients, k), 1e-14));
+      EXPECT_TRUE(AreNear(found.d_point_d_coefficients, NumericJacobian(by_coefficients, k), 1e-11));
+    }
+}
+
+// --- The fisheye's quotients near the axis. --------------------------------------------------------------
+
+TEST(Fisheye, IsTheAngleTimesThePolynomialInTheDirectionOfThePoint) {
+  const Distortion& k = kStrongFisheye.distortion;
+  for (const double theta : {1e-12, 1e-8, 1e-4, 0.01, 0.2449, 0.245, 0.5, 1.0, 1.4}) {
+    const double t2 = theta * theta;
+    const double theta_d =
+        theta * (1 + k[0] * t2 + k[1] * t2 * t2 + k[2] * t2 * t2 * t2 + k[3] * t2 * t2 * t2 * t2);
+    const Vector2d direction(0.6, -0.8);
+    const Vector2d found = Distort<double>(LensModel::kFisheye, k, std::tan(theta) * direction);
+    EXPECT_TRUE(AreNear(found / theta_d, direction, 1e-15)) << theta;
+  }
+}
+
+TEST(Fisheye, IsTheIdentityOnTheAxisWithDerivativesThatGoOverIntoTheirNeighbours) {
+  const Distortion& k = kStrongFisheye.distortion;
+  const DistortedPoint on_axis = DistortWithJacobians(LensModel::kFisheye, k, {0, 0});
+  EXPECT_EQ(on_axis.point, Vector2d(0, 0));
+  EXPECT_EQ(on_axis.d_point_d_undistorted, Eigen::Matrix2d::Identity());
+  for (const double r : {1e-160, 1e-9, 1e-6}) {
+    const DistortedPoint beside = DistortWithJacobians(LensModel::kFisheye, k, r * Vector2d(0.6, 0.8));
+    EXPECT_TRUE(AreNear(beside.d_point_d_undistorted, Eigen::Matrix2d::Identity(), r * r + 1e-15)) << r;
+  }
+}
+
+// Where the code goes from one to the other, with the slope's closed form.
+TEST(Fisheye, SeriesAndQuotientMeet) {
+  for (const double k1 : {0.0, 0.3}) {
+    const Distortion k = Coefficients({k1});
+    const double edge = 0.25;
+    const DistortedPoint below = DistortWithJacobians(LensModel::kFisheye, k, {edge, 0});
+    const DistortedPoint above = DistortWithJacobians(LensModel::kFisheye, k, {std::nextafter(edge, 1), 0});
+    EXPECT_NEAR(below.point.x(), above.point.x(), 2e-16);
+    EXPECT_TRUE(AreNear(below.d_point_d_undistorted, above.d_point_d_undistorted, 2e-15));
+    EXPECT_NEAR(below.d_point_d_undistorted(0, 0),
+                (1 + 3 * k1 * std::pow(std::atan(edge), 2)) / (1 + edge * edge), 2e-15);
   }
 }
 
@@ -166,24 +226,24 @@ TEST(MonotonicRadius, IsWhereTheRadialPartStopsRising) {
     for (int i = 0; i < 200; ++i) {
       Distortion k = RandomDistortion(generator, lens) * std::pow(10, Uniform(generator, -3, 0));
       k.segment<2>(2).setZero();
-      EXPECT_NEAR(MonotonicRadius(k), RadialFoldByScan(k, kStep), 2 * kStep) << k.transpose();
+      EXPECT_NEAR(MonotonicRadius(lens, k), RadialFoldByScan(k, kStep), 2 * kStep) << k.transpose();
     }
   }
 }
 
-double SmallestSlope(const Distortion& k, const Vector2d& x) {
-  const Eigen::Matrix2d jacobian = DistortWithJacobians(k, x).d_point_d_undistorted;
+double SmallestSlope(LensModel lens, const Distortion& k, const Vector2d& x) {
+  const Eigen::Matrix2d jacobian = DistortWithJacobians(lens, k, x).d_point_d_undistorted;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(jacobian).eigenvalues()[0];
 }
 
-TEST(MonotonicRadius, HasNoFoldWithinWhateverTheTangentialTerms) {
+TEST(MonotonicRadius, HasNoFoldWithinWhateverTheCoefficients) {
   std::mt19937_64 generator = TestGenerator();
-  for (const LensModel lens : {LensModel::kBrownConrady, LensModel::kRational}) {
+  for (const LensModel lens : kModels) {
     for (int i = 0; i < 300; ++i) {
       const Distortion k = RandomDistortion(generator, lens);
-      const double radius = MonotonicRadius(k);
+      const double radius = MonotonicRadius(lens, k);
       for (int j = 0; j < 100; ++j) {
-        EXPECT_GT(SmallestSlope(k, RandomPoint(generator, radius)), 0) << k.transpose();
+        EXPECT_GT(SmallestSlope(lens, k, RandomPoint(generator, radius)), 0) << k.transpose();
       }
     }
   }
@@ -194,47 +254,63 @@ TEST(MonotonicRadius, EndsWithinTheReachOfTheTangentialTermsOfTheFold) {
   std::mt19937_64 generator = TestGenerator();
   for (int i = 0; i < 300; ++i) {
     const Distortion k = RandomDistortion(generator, LensModel::kBrownConrady);
-    const double radius = MonotonicRadius(k), reach = k.segment<2>(2).norm() * radius;
+    const double radius = MonotonicRadius(LensModel::kBrownConrady, k),
+                 reach = k.segment<2>(2).norm() * radius;
     if (radius > 3) continue;  // farther out the terms cancel too much for the digits asked for below
     const Vector2d worst = -radius * Vector2d(k[3], k[2]).normalized();
-    EXPECT_NEAR(SmallestSlope(k, worst), 0.4 * reach, 1e-12) << k.transpose();
+    EXPECT_NEAR(SmallestSlope(LensModel::kBrownConrady, k, worst), 0.4 * reach, 1e-12) << k.transpose();
   }
 }
 
 TEST(MonotonicRadius, IsExactWhereItHasAClosedForm) {
-  EXPECT_EQ(MonotonicRadius(Distortion::Zero()), 10);
-  EXPECT_NEAR(MonotonicRadius(Coefficients({-0.3})), std::sqrt(1 / 0.9), 1e-15);    // 1 + 3 k1 r2 = 0
-  EXPECT_NEAR(MonotonicRadius(Coefficients({0, -0.1})), std::pow(2, 0.25), 1e-15);  // 1 + 5 k2 r4 = 0
-  EXPECT_NEAR(MonotonicRadius(Coefficients({0, 0, 0, 0, 0, -0.25})), 2, 1e-15);     // pole: 1 + k4 r2 = 0
-  EXPECT_NEAR(MonotonicRadius(Coefficients({0, 0, 0, 0, 0, 0.25})), 2, 1e-15);      // r / (1 + r2 / 4) turns
-  EXPECT_EQ(MonotonicRadius(Coefficients({-2, 2})), 10);  // 1 - 6 r2 + 10 r4 > 0: dips, but never falls
+  const auto radius = [](std::initializer_list<double> k) {
+    return MonotonicRadius(LensModel::kRational, Coefficients(k));
+  };
+  EXPECT_EQ(radius({}), 10);
+  EXPECT_NEAR(radius({-0.3}), std::sqrt(1 / 0.9), 1e-15);    // 1 + 3 k1 r2 = 0
+  EXPECT_NEAR(radius({0, -0.1}), std::pow(2, 0.25), 1e-15);  // 1 + 5 k2 r4 = 0
+  EXPECT_NEAR(radius({0, 0, 0, 0, 0, -0.25}), 2, 1e-15);     // pole: 1 + k4 r2 = 0
+  EXPECT_NEAR(radius({0, 0, 0, 0, 0, 0.25}), 2, 1e-15);      // r / (1 + r2 / 4) turns
+  EXPECT_EQ(radius({-2, 2}), 10);                            // 1 - 6 r2 + 10 r4 > 0: dips, but never falls
+}
+
+TEST(MonotonicRadius, OfTheFisheyeIsTheTangentOfTheAngleWhereItTurns) {
+  const auto radius = [](std::initializer_list<double> k) {
+    return MonotonicRadius(LensModel::kFisheye, Coefficients(k));
+  };
+  EXPECT_EQ(radius({}), 10);
+  EXPECT_NEAR(radius({-1}), std::tan(std::sqrt(1 / 3.0)), 1e-15);              // 1 + 3 k1 theta^2 = 0
+  EXPECT_NEAR(radius({0, -1}), std::tan(std::pow(5, -0.25)), 1e-15);           // 1 + 5 k2 theta^4 = 0
+  EXPECT_NEAR(radius({0, 0, -1}), std::tan(std::pow(7, -1 / 6.0)), 1e-15);     // 1 + 7 k3 theta^6 = 0
+  EXPECT_NEAR(radius({0, 0, 0, -1}), std::tan(std::pow(9, -1 / 8.0)), 1e-15);  // 1 + 9 k4 theta^8 = 0
 }
 
 // --- The inverse of the distortion. ----------------------------------------------------------------------
 
 TEST(Undistort, InvertsDistortInsideTheMonotonicRadius) {
   std::mt19937_64 generator = TestGenerator();
-  for (const LensModel lens : {LensModel::kPinhole, LensModel::kBrownConrady, LensModel::kRational}) {
+  for (const LensModel lens : kModels) {
     for (int i = 0; i < 3000; ++i) {
       const Distortion k = RandomDistortion(generator, lens);
-      const Vector2d x = RandomPoint(generator, MonotonicRadius(k));
-      const Vector2d distorted = Distort<double>(k, x);
+      const Vector2d x = RandomPoint(generator, MonotonicRadius(lens, k));
+      const Vector2d distorted = Distort<double>(lens, k, x);
       if (distorted.norm() > 100)
         continue;  // so near a pole rounding of x alone moves it by more than asked for
-      const std::optional<Vector2d> found = Undistort(k, distorted);
+      const std::optional<Vector2d> found = Undistort(lens, k, distorted);
       ASSERT_TRUE(found.has_value()) << k.transpose() << "  x " << x.transpose();
       const double rounding = 1e-14 * (1 + distorted.norm());
-      EXPECT_TRUE(AreNear(*found, x, rounding * (1 + 1 / SmallestSlope(k, x)))) << k.transpose();
+      EXPECT_TRUE(AreNear(*found, x, rounding * (1 + 1 / SmallestSlope(lens, k, x)))) << k.transpose();
     }
   }
 }
 
 TEST(Undistort, ReachesTheFold) {
   const Distortion k = Coefficients({-0.3});
-  const double fold = MonotonicRadius(k);
+  const double fold = MonotonicRadius(LensModel::kBrownConrady, k);
   for (const double gap : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
     const Vector2d x = (fold - gap) * Vector2d(0.6, 0.8);
-    const std::optional<Vector2d> found = Undistort(k, Distort<double>(k, x));
+    const std::optional<Vector2d> found =
+        Undistort(LensModel::kBrownConrady, k, Distort<double>(LensModel::kBrownConrady, k, x));
     ASSERT_TRUE(found.has_value()) << "gap " << gap;
     EXPECT_TRUE(AreNear(*found, x, 1e-15 / gap + 1e-15)) << "gap " << gap;  // the slope there is some 2 gap
   }
@@ -242,23 +318,24 @@ TEST(Undistort, ReachesTheFold) {
 
 TEST(Undistort, FindsNothingBeyondTheFold) {
   const Distortion k = Coefficients({-0.3});
-  const Vector2d fold = Distort<double>(k, MonotonicRadius(k) * Vector2d(0.6, 0.8));
-  EXPECT_TRUE(Undistort(k, fold * (1 - 1e-9)).has_value());
-  EXPECT_FALSE(Undistort(k, fold * (1 + 1e-9)).has_value());
-  EXPECT_FALSE(Undistort(k, fold * 3).has_value());
+  const Vector2d fold = Distort<double>(LensModel::kBrownConrady, k,
+                                        MonotonicRadius(LensModel::kBrownConrady, k) * Vector2d(0.6, 0.8));
+  EXPECT_TRUE(Undistort(LensModel::kBrownConrady, k, fold * (1 - 1e-9)).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, k, fold * (1 + 1e-9)).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, k, fold * 3).has_value());
 }
 
 TEST(Undistort, NeverAnswersWithAPointBeyondTheMonotonicRadius) {
   std::mt19937_64 generator = TestGenerator();
-  for (const LensModel lens : {LensModel::kBrownConrady, LensModel::kRational}) {
+  for (const LensModel lens : kModels) {
     for (int i = 0; i < 3000; ++i) {
       const Distortion k = RandomDistortion(generator, lens);
-      const double radius = MonotonicRadius(k);
+      const double radius = MonotonicRadius(lens, k);
       const Vector2d distorted = RandomPoint(generator, 3);
-      const std::optional<Vector2d> found = Undistort(k, distorted);
+      const std::optional<Vector2d> found = Undistort(lens, k, distorted);
       if (!found) continue;
       EXPECT_TRUE(radius == 10 || found->norm() <= radius) << k.transpose();
-      EXPECT_TRUE(AreNear(Distort<double>(k, *found), distorted, 1e-11)) << k.transpose();
+      EXPECT_TRUE(AreNear(Distort<double>(lens, k, *found), distorted, 1e-11)) << k.transpose();
     }
   }
 }
@@ -266,20 +343,23 @@ TEST(Undistort, NeverAnswersWithAPointBeyondTheMonotonicRadius) {
 // r (1 - 3 r2 + 3 r4) takes r = 1 to 1 again, but folds at 0.38 already.
 TEST(Undistort, IsNotFooledByALensThatUnfoldsAgain) {
   const Distortion k = Coefficients({-3, 3});
-  EXPECT_FALSE(Undistort(k, {1, 0}).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, k, {1, 0}).has_value());
   const Vector2d x(0.2, -0.1);
-  ASSERT_TRUE(Undistort(k, Distort<double>(k, x)).has_value());
-  EXPECT_TRUE(AreNear(*Undistort(k, Distort<double>(k, x)), x, 1e-14));
+  ASSERT_TRUE(
+      Undistort(LensModel::kBrownConrady, k, Distort<double>(LensModel::kBrownConrady, k, x)).has_value());
+  EXPECT_TRUE(AreNear(
+      *Undistort(LensModel::kBrownConrady, k, Distort<double>(LensModel::kBrownConrady, k, x)), x, 1e-14));
 }
 
 TEST(Undistort, ReachesAsFarOutAsThereIsALens) {
-  EXPECT_TRUE(AreNear(*Undistort(Distortion::Zero(), {30, -40}), Vector2d(30, -40), 0));
+  EXPECT_TRUE(
+      AreNear(*Undistort(LensModel::kBrownConrady, Distortion::Zero(), {30, -40}), Vector2d(30, -40), 0));
 }
 
 TEST(Undistort, FindsNothingForWhatIsNotANumber) {
-  EXPECT_FALSE(Undistort(kBarrel, {NAN, 0}).has_value());
-  EXPECT_FALSE(Undistort(kBarrel, {0, INFINITY}).has_value());
-  EXPECT_FALSE(Undistort(Coefficients({NAN}), {0.1, 0.1}).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, kBarrelCoefficients, {NAN, 0}).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, kBarrelCoefficients, {0, INFINITY}).has_value());
+  EXPECT_FALSE(Undistort(LensModel::kBrownConrady, Coefficients({NAN}), {0.1, 0.1}).has_value());
 }
 
 }  // namespace

@@ -17,23 +17,16 @@ namespace {
 constexpr int kRandomCases = 50;
 constexpr double kSolved_px = 2e-10;  // the foot is found to 1e-13 of the focal length, and rounding beyond
 
-CameraParameters PinholeParameters() {
-  CameraParameters camera = CameraParameters::Zero();
-  camera.head<4>() << 1246.83, 1249.57, 654.12, 467.63;
+Camera CameraOf(LensModel lens, std::initializer_list<double> coefficients) {
+  Camera camera{1280, 960, 1246.83, 1249.57, 654.12, 467.63, lens, Distortion::Zero()};
+  std::copy(coefficients.begin(), coefficients.end(), camera.distortion.begin());
   return camera;
 }
 
-CameraParameters BrownConradyParameters() {
-  CameraParameters camera = PinholeParameters();
-  camera.segment<5>(4) << -0.25, 0.09, 0.0008, -0.0006, -0.01;
-  return camera;
-}
-
-CameraParameters RationalParameters() {
-  CameraParameters camera = PinholeParameters();
-  camera.tail<8>() << 0.6, 0.04, 0.0008, -0.0006, 0.002, 0.9, 0.1, 0.005;
-  return camera;
-}
+const Camera kPinhole = CameraOf(LensModel::kPinhole, {});
+const Camera kBrownConrady = CameraOf(LensModel::kBrownConrady, {-0.25, 0.09, 0.0008, -0.0006, -0.01});
+const Camera kRational = CameraOf(LensModel::kRational, {0.6, 0.04, 0.0008, -0.0006, 0.002, 0.9, 0.1, 0.005});
+const Camera kFisheye = CameraOf(LensModel::kFisheye, {-0.05, 0.02, -0.01, 0.003});
 
 // An edge through the image, a point some pixels beside it and a direction up to 40 degrees off the edge's
 // normal.
@@ -44,7 +37,7 @@ struct Case {
   double offset_px;
 };
 
-Case RandomCase(std::mt19937_64& generator, const CameraParameters& camera, double largest_offset_px) {
+Case RandomCase(std::mt19937_64& generator, const Camera& camera, double largest_offset_px) {
   const double angle = Uniform(generator, -M_PI, M_PI);
   const Eigen::Vector2d line(std::cos(angle), std::sin(angle));
   const Eigen::Vector2d on_edge = UniformVector(generator, -0.35, 0.35).head<2>();
@@ -54,12 +47,12 @@ Case RandomCase(std::mt19937_64& generator, const CameraParameters& camera, doub
   const double turned = angle + Uniform(generator, -0.7, 0.7);
   random.direction_px << std::cos(turned), std::sin(turned);
   random.offset_px = Uniform(generator, -largest_offset_px, largest_offset_px);
-  random.point_px = PixelOf<double>(camera, on_edge) + random.offset_px * random.direction_px;
+  random.point_px = ProjectNormalised(camera, on_edge) + random.offset_px * random.direction_px;
   return random;
 }
 
 // Walks along the distorted edge and intersects it, piece by piece, with the line along the direction.
-double DistanceByWalking(const CameraParameters& camera, const Case& c) {
+double DistanceByWalking(const Camera& camera, const Case& c) {
   const Eigen::Vector2d line = c.normal.head<2>();
   const Eigen::Vector2d along(-line.y(), line.x());
   const Eigen::Vector2d nearest_centre = -line * c.normal.z() / line.squaredNorm();
@@ -69,7 +62,7 @@ double DistanceByWalking(const CameraParameters& camera, const Case& c) {
   Eigen::Vector2d before;
   for (int i = 0; i <= kSteps; ++i) {
     const Eigen::Vector2d x = nearest_centre + along.normalized() * (1.2 * i / kSteps - 0.6);
-    const Eigen::Vector2d from_point = PixelOf<double>(camera, x) - c.point_px;
+    const Eigen::Vector2d from_point = ProjectNormalised(camera, x) - c.point_px;
     const double side = across_px.dot(from_point), side_before = across_px.dot(before);
     if (i > 0 && side * side_before <= 0 && side != side_before) {
       const Eigen::Vector2d crossing = before + (from_point - before) * side_before / (side_before - side);
@@ -81,7 +74,7 @@ double DistanceByWalking(const CameraParameters& camera, const Case& c) {
   return best;
 }
 
-class EdgeDistanceOfLens : public testing::TestWithParam<CameraParameters> {};
+class EdgeDistanceOfLens : public testing::TestWithParam<Camera> {};
 
 TEST_P(EdgeDistanceOfLens, IsWhatWalkingAlongTheDistortedEdgeFinds) {
   std::mt19937_64 generator = TestGenerator();
@@ -119,8 +112,7 @@ TEST_P(EdgeDistanceOfLens, IsPositiveOutsideTheLeg) {
     const Case c = RandomCase(generator, GetParam(), 20);
     const auto found = DistanceToEdge(GetParam(), c.normal, c.point_px, c.direction_px);
     ASSERT_TRUE(found);
-    Camera camera = WithParameters({}, GetParam());
-    const auto x = Unproject(camera, c.point_px);
+    const auto x = Unproject(GetParam(), c.point_px);
     ASSERT_TRUE(x);
     EXPECT_GT(found->distance_px * c.normal.dot(x->homogeneous()), 0);
   }
@@ -139,20 +131,20 @@ TEST_P(EdgeDistanceOfLens, DerivativesAgreeWithNumericOnesAndWithJets) {
     derivative << found->d_distance_d_camera, found->d_distance_d_normal;
 
     Unknowns at;
-    at << GetParam(), c.normal;
+    at << ParametersOf(GetParam()), c.normal;
     const auto numeric = NumericJacobian(
         [&](const Unknowns& u) {
-          const auto moved =
-              DistanceToEdge(u.head<kCameraParameterCount>(), u.tail<3>(), c.point_px, c.direction_px);
+          const auto moved = DistanceToEdge(WithParameters(GetParam(), u.head<kCameraParameterCount>()),
+                                            u.tail<3>(), c.point_px, c.direction_px);
           return Eigen::Matrix<double, 1, 1>(moved.value().distance_px);
         },
         at);
     const auto exact = JetJacobian(
         [&](const auto& u) {
           using T = typename std::decay_t<decltype(u)>::Scalar;
-          return Eigen::Matrix<T, 1, 1>(DistanceByNewton<T>(u.template head<kCameraParameterCount>(),
-                                                            u.template tail<3>(), c.point_px, c.direction_px,
-                                                            GetParam(), c.normal));
+          return Eigen::Matrix<T, 1, 1>(
+              DistanceByNewton<T>(GetParam(), u.template head<kCameraParameterCount>(), u.template tail<3>(),
+                                  c.point_px, c.direction_px, c.normal));
         },
         at);
     // Derivatives reach some 1e3 px per unit of the normal: relative to that, rounding leaves 1e-13.
@@ -161,23 +153,26 @@ TEST_P(EdgeDistanceOfLens, DerivativesAgreeWithNumericOnesAndWithJets) {
   }
 }
 
-std::string NameOfLens(const testing::TestParamInfo<CameraParameters>& lens) {
-  const std::array<std::string, 3> names = {"Pinhole", "BrownConrady", "Rational"};
+std::string NameOfLens(const testing::TestParamInfo<Camera>& lens) {
+  const std::array<std::string, 4> names = {"Pinhole", "BrownConrady", "Rational", "Fisheye"};
   return names[lens.index];
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, EdgeDistanceOfLens,
-                         testing::Values(PinholeParameters(), BrownConradyParameters(), RationalParameters()),
-                         NameOfLens);
+                         testing::Values(kPinhole, kBrownConrady, kRational, kFisheye), NameOfLens);
 
 TEST(EdgeDistance, HasNoValueAlongTheEdge) {
   const Eigen::Vector3d normal(1, 0, 0);
-  EXPECT_FALSE(DistanceToEdge(PinholeParameters(), normal, {700, 400}, {0, 1}));
+  EXPECT_FALSE(DistanceToEdge(kPinhole, normal, {700, 400}, {0, 1}));
 }
 
 TEST(EdgeDistance, CameraAndItsParametersAgree) {
-  const Camera camera = WithParameters({}, RationalParameters());
-  EXPECT_TRUE(AreNear(ParametersOf(camera), RationalParameters(), 0));
+  CameraParameters parameters;
+  parameters << 1246.83, 1249.57, 654.12, 467.63, kRational.distortion;
+  EXPECT_EQ(ParametersOf(kRational), parameters);
+  const Camera camera = WithParameters(kFisheye, parameters);
+  EXPECT_EQ(ParametersOf(camera), parameters);
+  EXPECT_EQ(camera.lens, LensModel::kFisheye);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ import { COLOR, TIP, key, plot, responsive } from "../shared/plots.js";
 const AXES = ["x", "y", "z"];
 const AXIS_COLOR = { x: COLOR.first, y: COLOR.second, z: COLOR.third };
 const DISTORTION = ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"];
+const FISHEYE_DISTORTION = ["k1", "k2", "k3", "k4"];
 const CLEARLY_OFF_SIGMA = 3;
 
 const LEG_QUANTITIES = [
@@ -95,7 +96,8 @@ function cameraRows({ calibration, nominal }) {
     ["Principal point cx", "cx"],
     ["Principal point cy", "cy"],
   ].map(([name, field]) => row(name, "px", 2, (camera) => camera?.[field]));
-  const coefficients = DISTORTION.slice(0, found.distortion?.length ?? 5).map((name, index) =>
+  const names = found.lens === "fisheye" ? FISHEYE_DISTORTION : DISTORTION;
+  const coefficients = names.slice(0, found.distortion?.length ?? 5).map((name, index) =>
     row(`Distortion ${name}`, "", 5, (camera) => camera?.distortion?.[index]),
   );
   return [{ rows: [...intrinsics, ...coefficients] }];
