@@ -85,14 +85,6 @@ BoardProblem RoughlySolved(BoardProblem problem, int iterations) {
   return problem;
 }
 
-// How far neighbouring corners of the list are from each other in the image, px.
-double NeighbourDistance(const ViewObservation& view) {
-  std::vector<double> distances;
-  for (size_t k = 1; k < view.pixels.size(); ++k)
-    distances.push_back((view.pixels[k] - view.pixels[k - 1]).norm());
-  return MedianOf(distances);
-}
-
 // Whether the corners do not span the board's plane, or the image's.
 bool AreOnOneLine(const ViewObservation& view) {
   constexpr double kLeastWidth = 0.02;  // of the length
@@ -203,7 +195,7 @@ bool CameraCalibrator::HasFlatBoards(const StraightenedViews& straightened) cons
   std::vector<double> shares;
   for (size_t i = 0; i < problem_.views.size(); ++i)
     if (const auto& view = straightened.views[i])
-      shares.push_back(view->median_error * straightened.unit_px / NeighbourDistance(problem_.views[i]));
+      shares.push_back(view->median_error * straightened.unit_px / NeighbourDistance_px(problem_.views[i]));
   return !shares.empty() && MedianOf(shares) <= kLargestUnevenness;
 }
 
@@ -367,20 +359,13 @@ BoardCalibration CameraCalibrator::Result(bool settled) {
 void CameraCalibrator::Judge(bool settled) {
   result_.information = InformationOf(problem_);
   const Camera& camera = problem_.camera;
-  const double sigma =
-      result_.information.is_regular
-          ? std::sqrt(std::max(result_.information.covariance(0, 0), result_.information.covariance(1, 1)))
-          : std::numeric_limits<double>::infinity();
-  if (!(sigma <= kLargestFocalSigma * camera.fx_px)) {
+  const double sigma_px = std::sqrt(result_.information.covariance.diagonal().head<2>().maxCoeff());
+  if (!(sigma_px <= kLargestFocalSigma * camera.fx_px)) {
     result_.status = BoardCalibrationStatus::kUndetermined;
-    result_.message =
-        result_.information.is_regular
-            ? fmt::format(
-                  "the views tell the focal length to {:.0f} % only: tilt the board by 30 degrees and "
-                  "more against the image, to different sides",
-                  100 * sigma / camera.fx_px)
-            : "the views leave the camera open: tilt the board by 30 degrees and more against the image, to "
-              "different sides, and show it in all parts of the image";
+    result_.message = fmt::format(
+        "the views tell the focal length to {:.0f} % only: tilt the board by 30 degrees and more against the "
+        "image, to different sides",
+        100 * sigma_px / camera.fx_px);
   } else if (!settled) {
     result_.message = "the estimate did not settle";
   } else if (options_.guess && (options_.guess->fx_px > kHopelessFactor * camera.fx_px ||

@@ -21,12 +21,12 @@ struct BoardCalibrationInput {
 
 struct BoardCalibrationOptions {
   LensModel lens = LensModel::kBrownConrady;
-  bool estimates_warp = false;  // the board is bent a little, see BoardWarp
-  bool trusts_all = false;      // every corner counts whole, however far off
-  std::optional<Camera> guess;  // where to start; without it from the views alone
-  int max_iterations = 100;     // a solve
+  bool estimates_warp = false;       // the board is bent a little, see BoardWarp
+  bool trusts_all = false;           // every corner counts whole, however far off
+  std::optional<Camera> guess = {};  // where to start; without it from the views alone
+  int max_iterations = 100;          // a solve
   int threads = 1;
-  std::function<void(const std::string& stage, int iteration, double rms_px)> progress;
+  std::function<void(const std::string& stage, int iteration, double rms_px)> progress = {};
 
   void Check() const;  // throws std::invalid_argument
 };

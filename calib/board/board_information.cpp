@@ -1,6 +1,7 @@
 #include "calib/board/board_information.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <stdexcept>
 
 namespace legible {
@@ -41,6 +42,18 @@ Eigen::MatrixXd WithoutWarp(const Eigen::MatrixXd& information, Eigen::Index cam
          cross * information.bottomRightCorner(warp, warp).ldlt().solve(cross.transpose());
 }
 
+// Scaled to a unit diagonal first, for coefficients and pixels differ by many orders. Combinations that
+// rounding hides, as of the coefficients of a lens that needs fewer, get the sigma at which it does.
+Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
+  constexpr double kRounding = 1e-15;
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * information *
+                                                              scale.asDiagonal());
+  const double least = kRounding * solver.eigenvalues()[information.rows() - 1];
+  const Eigen::MatrixXd vectors = scale.asDiagonal() * solver.eigenvectors();
+  return vectors * solver.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() * vectors.transpose();
+}
+
 }  // namespace
 
 BoardInformation InformationOf(const BoardProblem& problem) {
@@ -62,13 +75,7 @@ BoardInformation InformationOf(const BoardProblem& problem) {
 
   BoardInformation result;
   result.information = WithoutWarp(information, camera);
-  // Scaled to a unit diagonal: coefficients and pixels differ by many orders.
-  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> scaled(scale.asDiagonal() * information * scale.asDiagonal());
-  if (scaled.info() != Eigen::Success || !(scaled.rcond() > 1e-15)) return result;
-  const Eigen::MatrixXd shared =
-      scale.asDiagonal() * scaled.solve(Eigen::MatrixXd::Identity(n, n)) * scale.asDiagonal();
-  result.is_regular = true;
+  const Eigen::MatrixXd shared = InverseOf(information);
   result.covariance.resize(camera + 6, camera + 6);
   result.covariance.topLeftCorner(camera, camera) = shared.topLeftCorner(camera, camera);
   result.covariance.bottomLeftCorner(6, camera) = follow * shared.leftCols(camera);

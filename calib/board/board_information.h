@@ -14,7 +14,6 @@ struct BoardInformation {
   // that all boards make together on average as the camera's unknowns change: a point that stands still
   // before the boards moves by v + omega x X before the camera. CameraUnknowns() + 6 square.
   Eigen::MatrixXd covariance;
-  bool is_regular = false;  // whether there is a covariance
 
   Eigen::MatrixXd CameraCovariance() const {
     return covariance.topLeftCorner(covariance.rows() - 6, covariance.cols() - 6);

@@ -71,7 +71,7 @@ struct BoardSolveOptions {
   int max_iterations = 100;
   double relative_tolerance = 1e-10;  // of the cost
   int threads = 1;
-  std::function<void(int iteration, double cost)> progress;
+  std::function<void(int iteration, double cost)> progress = {};
 };
 struct BoardSolveSummary {
   bool converged = false;

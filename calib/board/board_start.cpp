@@ -185,6 +185,13 @@ StraightenedViews Straighten(const std::vector<ViewObservation>& views, int widt
   return result;
 }
 
+double NeighbourDistance_px(const ViewObservation& view) {
+  std::vector<double> distances;
+  for (size_t k = 1; k < view.pixels.size(); ++k)
+    distances.push_back((view.pixels[k] - view.pixels[k - 1]).norm());
+  return MedianOf(distances);
+}
+
 std::optional<double> FocalLengthOf(const StraightenedViews& straightened) {
   double left = 0, right = 0;
   for (const auto& view : straightened.views) {

@@ -29,6 +29,9 @@ struct StraightenedViews {
 StraightenedViews Straighten(const std::vector<ViewObservation>& views, int width_px, int height_px,
                              bool may_bend);
 
+// How far neighbouring corners of a view's list are from each other in the image, the median.
+double NeighbourDistance_px(const ViewObservation& view);
+
 // The focal length in units of half the diagonal that makes the columns of the homographies orthogonal and
 // of equal length (Zhang 2000), with the principal point in the image's centre. Nothing where the boards are
 // so nearly parallel to the image that they say nothing of it.

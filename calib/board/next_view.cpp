@@ -114,7 +114,7 @@ class Proposer {
     ViewObservation seen{camera_from_board, {}, {}, {}};
     const double sigma_px = calibration_.CornerSigma_px();
     const Eigen::Vector3d normal = camera_from_board.rotation * Eigen::Vector3d::UnitZ();
-    const double reach = MonotonicRadius(calibration_.camera.distortion);
+    const double reach = MonotonicRadius(calibration_.camera.lens, calibration_.camera.distortion);
     for (const Eigen::Vector3d& point : sample_.points_m) {
       const Eigen::Vector3d x = camera_from_board * point;
       if (!(x.z() > 0) || x.head<2>().norm() >= reach * x.z()) continue;

@@ -1,0 +1,95 @@
+#include "apps/intrinsics_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "apps/option_values.h"
+#include "calib/board/layout_check.h"
+#include "calib/board/neighbour_scatter.h"
+#include "core/vision/median.h"
+#include "datasets/camera_file.h"
+#include "datasets/input_error.h"
+
+namespace legible {
+namespace {
+
+constexpr int kMapColumns = 32, kMapRows = 24;
+constexpr int kCoverageColumns = 12, kCoverageRows = 9;
+constexpr int kCoarseColumns = 12, kCoarseRows = 9;  // where each place costs a sum over candidates
+
+Camera GuessOf(const IntrinsicsSettings& settings, const BoardCalibrationInput& input) {
+  const std::string& text = *settings.guess;
+  try {
+    const double focal_px = ParsePositive(text);
+    return {input.width_px,
+            input.height_px,
+            focal_px,
+            focal_px,
+            0.5 * (input.width_px - 1),
+            0.5 * (input.height_px - 1),
+            settings.lens,
+            Distortion::Zero()};
+  } catch (const std::invalid_argument&) {
+    return ReadCamera(text).camera;
+  }
+}
+
+double MedianDistance_m(const BoardCalibration& result) {
+  std::vector<double> distances;
+  for (const ViewFit& view : result.views)
+    if (view.left_out.empty()) distances.push_back(view.camera_from_board.translation.norm());
+  return MedianOf(distances);
+}
+
+// What the images show to be wrong is bad input, not a computation that failed.
+void DemandNoContradiction(const IntrinsicsRun& run) {
+  if (run.result.status == BoardCalibrationStatus::kNotFlat)
+    throw InputError(run.settings.board, 0, "does not describe the board in the images",
+                     WhyNotFlat(run.board, run.input));
+  if (run.result.status == BoardCalibrationStatus::kHopelessGuess)
+    throw InputError(*run.settings.guess, 0, "is no start for these images: " + run.result.message,
+                     "leave --guess out, for none is needed, or mend it");
+}
+
+void WorkOutUncertainty(IntrinsicsRun& run) {
+  run.board_distance_m = MedianDistance_m(run.result);
+  std::vector<double> distances_m = run.settings.distances_m;
+  if (distances_m.empty())
+    distances_m = {run.board_distance_m, 3 * run.board_distance_m, std::numeric_limits<double>::infinity()};
+  for (const double distance_m : distances_m)
+    run.maps.push_back(
+        PixelUncertainty(run.result.camera, run.result.information, {kMapColumns, kMapRows, distance_m}));
+}
+
+}  // namespace
+
+std::optional<double> IntrinsicsRun::NeighbourSigma_px() const {
+  if (!neighbour_scatter) return std::nullopt;
+  return result.CornerSigma_px() * *neighbour_scatter / result.noise_factor;
+}
+
+void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {
+  run.options.lens = run.settings.lens;
+  run.options.estimates_warp = run.settings.estimates_warp;
+  run.options.trusts_all = run.settings.trusts_all;
+  run.options.threads = run.settings.threads;
+  if (run.settings.guess) run.options.guess = GuessOf(run.settings, run.input);
+  run.options.progress = [&progress](const std::string& stage, int iteration, double rms_px) {
+    progress.Show(iteration == 0 ? stage : IterationText(iteration, rms_px));
+  };
+  run.result = CalibrateCamera(run.input, run.options);
+  DemandNoContradiction(run);
+  if (run.result.status != BoardCalibrationStatus::kConverged) return;
+  progress.Show("comparing two halves of the views");
+  WorkOutUncertainty(run);
+  const ImageGrid coarse{kCoarseColumns, kCoarseRows, run.board_distance_m};
+  run.halves = CompareHalves(run.input, run.result, run.options, coarse);
+  run.neighbour_scatter = NeighbourScatter(run.input, run.result, run.settings.trusts_all);
+  run.coverage = CoverageOf(run.input, run.result, kCoverageColumns, kCoverageRows);
+  progress.Show("looking for the view to add next");
+  run.next_view = ProposeView(run.input, run.result, {coarse, run.board.chessboard.has_value()});
+}
+
+}  // namespace legible

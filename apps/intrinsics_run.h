@@ -1,0 +1,51 @@
+// All there is to say about one calibration of a camera by a board: what went in, what came out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/intrinsics_settings.h"
+#include "apps/progress.h"
+#include "calib/board/board_calibration.h"
+#include "calib/board/coverage.h"
+#include "calib/board/halves.h"
+#include "calib/board/next_view.h"
+#include "calib/board/pixel_uncertainty.h"
+#include "core/session/board.h"
+#include "core/vision/board_sighting.h"
+
+namespace legible {
+
+struct IntrinsicsRun {
+  IntrinsicsSettings settings;
+  Board board;
+  BoardCalibrationInput input;
+  std::vector<std::vector<LeftOut>> left_out;  // of each view, by the detection
+  BoardCalibrationOptions options;
+  std::string content_hash;
+
+  BoardCalibration result;
+  // Where there is a camera:
+  double board_distance_m = 0;  // median over the views
+  std::vector<UncertaintyMap> maps;
+  HalvesComparison halves;
+  std::optional<double> neighbour_scatter;  // in units of noise_factor
+  Coverage coverage;
+  std::optional<NextView> next_view;
+
+  double seconds = 0;  // of the whole command up to the writing of files
+
+  // Of one coordinate of one corner, among its neighbours, px.
+  std::optional<double> NeighbourSigma_px() const;
+};
+
+// Reads the board and finds its corners in the images, or reads them. Throws InputError for what cannot be
+// read, images of two sizes, and tags that contradict the board's file.
+IntrinsicsRun LoadViews(const IntrinsicsSettings& settings, ProgressLine& progress);
+
+// Calibrates, and works out what follows from it where there is a camera. Throws InputError where the board's
+// file or the guess is wrong by what the images show.
+void Calibrate(IntrinsicsRun& run, ProgressLine& progress);
+
+}  // namespace legible

@@ -1,0 +1,33 @@
+// What the user of `legible intrinsics` asks for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/camera.h"
+
+namespace legible {
+
+struct IntrinsicsSettings {
+  std::vector<std::filesystem::path> images;  // files, and folders of images
+  std::filesystem::path board;
+  std::optional<std::filesystem::path> corners;      // found elsewhere
+  std::optional<std::pair<int, int>> image_size_px;  // width, height; for corners without images
+  std::filesystem::path out = "intrinsics";
+  LensModel lens = LensModel::kBrownConrady;
+  bool estimates_warp = false;
+  bool trusts_all = false;
+  std::optional<std::string> guess;  // a camera file, or a focal length in px
+  std::vector<double> distances_m;   // of the maps; none: the boards', three times that and infinity
+  bool prints_json = false;
+  bool embeds_pictures = true;
+  int threads = 2;
+};
+
+// The options that change the result, as they would be typed; "none" if all are default.
+std::string OptionsText(const IntrinsicsSettings& settings);
+
+}  // namespace legible
