@@ -2,27 +2,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "core/session/board.h"
+#include "core/vision/board_sighting.h"
 #include "core/vision/gray_image.h"
 
 namespace legible {
-
-// Something of the board that is in the image, or ought to be, without being among the corners.
-struct LeftOut {
-  std::string what;                      // "tag 17", "the top-left corner of tag 5", "the board", …
-  std::string reason;                    // goes on: "is not among the board's tags"
-  std::vector<int> points;               // of PointsOf(board) that are missing by it; none for a foreign tag
-  std::optional<Eigen::Vector2d> pixel;  // where it is, or ought to be
-};
-
-struct BoardSighting {
-  std::vector<BoardCorner> corners;  // by point
-  std::vector<LeftOut> left_out;
-};
 
 // Finds one board. Not for use by two threads.
 //
@@ -36,8 +21,9 @@ struct BoardSighting {
 // that changes nothing of what a calibration finds of the camera.
 class BoardDetector {
  public:
-  // Throws std::invalid_argument for a board that is not exactly one of the two kinds, has no points, an
-  // unknown family of tags, or a wide border about tags that cannot be read with one.
+  // Throws std::invalid_argument for a board that is not exactly one of the two kinds, has no tags or fewer
+  // than three inner corners a side, an unknown family of tags, or a wide border about tags that cannot be
+  // read with one.
   explicit BoardDetector(const Board& board);
   ~BoardDetector();
   BoardDetector(const BoardDetector&) = delete;
@@ -46,10 +32,8 @@ class BoardDetector {
   BoardSighting Detect(const GrayImage& image) const;
 
  private:
-  class Kind;
-  class Tags;
-  class Chess;
-  std::unique_ptr<const Kind> kind_;
+  struct Kinds;
+  std::unique_ptr<const Kinds> kinds_;
 };
 
 }  // namespace legible
