@@ -29,6 +29,7 @@ CornerStatus StatusOf(const CornerFit& fit) {
 std::vector<CornerFit> FitCorners(const GrayImage& image, const std::vector<ExpectedCorner>& corners,
                                   double corner_sigma_px, CornerExpectations expected) {
   std::vector<CornerFit> fits;
+  fits.reserve(corners.size());
   for (const ExpectedCorner& corner : corners) {
     const auto [shorter_px, longer_px] = std::minmax(corner.sides_px[0], corner.sides_px[1]);
     expected.direction_sigma_rad = corner_sigma_px / shorter_px + kBend_per_px * longer_px;

@@ -39,6 +39,7 @@ std::vector<Eigen::Vector2d> ChessboardDetector::Find(const GrayImage& image) co
       !cv::findChessboardCornersSB(view, size, found, kQuick | cv::CALIB_CB_EXHAUSTIVE))
     return {};
   std::vector<Eigen::Vector2d> corners;
+  corners.reserve(found.size());
   for (const cv::Point2f& corner : found) corners.emplace_back(corner.x, corner.y);
   // Rows go down where columns go right, seen from the printed side.
   const Eigen::Vector2d right = corners[1] - corners[0], down = corners[At(1, 0)] - corners[0];

@@ -36,7 +36,8 @@ CornerCells CellsOf(const TagPicture& picture, size_t corner) {
   const int low = picture.ring, high = picture.modules - picture.ring;
   const Eigen::Vector2d at(corner == 1 || corner == 2 ? high : low, corner >= 2 ? low : high);  // column, row
   const std::array<Eigen::Vector2d, 4> along = {Eigen::Vector2d(1, 0), {0, -1}, {-1, 0}, {0, 1}};
-  const Eigen::Vector2d edge_1 = along[corner], edge_2 = -along[(corner + 3) % 4];
+  const Eigen::Vector2d& edge_1 = along[corner];
+  const Eigen::Vector2d edge_2 = -along[(corner + 3) % 4];
   CornerCells cells;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
@@ -68,11 +69,17 @@ bool IsInside(const std::array<Eigen::Vector2d, 4>& corners_px, const GrayImage&
   });
 }
 
-// The tags with the corners that were fitted where those were.
-std::vector<ReadTag> Refined(std::vector<ReadTag> read, const std::vector<CornerFit>& fits) {
-  for (size_t i = 0; i < fits.size(); ++i)
-    if (fits[i].status == CornerStatus::kFitted) read[i / 4].corners_px[i % 4] = fits[i].pixel;
+// The tag with the corners that were fitted where those were; `fits` begins with its own.
+ReadTag Refined(ReadTag read, const CornerFit* fits) {
+  for (size_t i = 0; i < 4; ++i)
+    if (fits[i].status == CornerStatus::kFitted) read.corners_px[i] = fits[i].pixel;
   return read;
+}
+
+bool IsFittedWhole(const CornerFit* fits) {
+  return std::all_of(fits, fits + 4, [](const CornerFit& fit) {
+    return fit.status == CornerStatus::kFitted && fit.contrast > 0;
+  });
 }
 
 // What both left out.
@@ -104,7 +111,12 @@ BoardSighting TagBoardDetector::Detect(const GrayImage& image) const {
   // Fitted corners say better where the next lines are, and other tags.
   const std::vector<CornerFit> rough = FitCorners(image, Expected(agreeing.tags), kDetectedSigma_px, {});
   const CornerExpectations expectations = ExpectationsFrom(rough);
-  const Reading all = WithOthers(image, Refined(agreeing.tags, rough), expectations);
+  std::vector<ReadTag> whole, partial;
+  for (size_t i = 0; i < agreeing.tags.size(); ++i) {
+    const CornerFit* const fits = &rough[4 * i];
+    (IsFittedWhole(fits) ? whole : partial).push_back(Refined(agreeing.tags[i], fits));
+  }
+  const Reading all = WithOthers(image, whole, partial, expectations);
   const std::vector<ExpectedCorner> expected = Expected(all.tags);
   BoardSighting sighting =
       SightingOf(expected, FitCorners(image, expected, kFittedSigma_px, expectations), [&](int point) {
@@ -167,28 +179,36 @@ TagBoardDetector::Reading TagBoardDetector::Agreeing(const std::vector<ReadTag>&
   return reading;
 }
 
-// Looks for each tag where the nearest of the others predicts it to be wholly inside the image.
-TagBoardDetector::Reading TagBoardDetector::WithOthers(const GrayImage& image, std::vector<ReadTag> tags,
+// Looks for each tag but the whole ones where the nearest of those predicts it to be wholly inside the image;
+// what is not found so is as it was read, in part.
+TagBoardDetector::Reading TagBoardDetector::WithOthers(const GrayImage& image, std::vector<ReadTag> whole,
+                                                       const std::vector<ReadTag>& partial,
                                                        const CornerExpectations& expected) const {
-  Reading reading{std::move(tags), {}};
+  std::vector<ReadTag> missing;
   std::set<size_t> found;
-  for (const ReadTag& read : reading.tags) found.insert(read.tag);
-  for (bool is_growing = true; is_growing;) {
+  for (const ReadTag& read : whole) found.insert(read.tag);
+  for (bool is_growing = !whole.empty(); is_growing;) {
     is_growing = false;
-    reading.left_out.clear();
+    missing.clear();
     for (size_t tag = 0; tag < board_.tags.size(); ++tag) {
       if (found.contains(tag)) continue;
-      const ReadTag predicted{tag, PredictedByNearest(tag, reading.tags)};
+      const ReadTag predicted{tag, PredictedByNearest(tag, whole)};
       if (!IsInside(predicted.corners_px, image)) continue;
       if (const std::optional<ReadTag> seen = LookFor(image, predicted, expected)) {
-        reading.tags.push_back(*seen);
+        whole.push_back(*seen);
         is_growing = found.insert(tag).second;
       } else {
-        reading.left_out.push_back(
-            Named(predicted, "was not found, although the other tags predict it to be inside the image"));
+        missing.push_back(predicted);
       }
     }
   }
+  Reading reading{std::move(whole), {}};
+  for (const ReadTag& read : partial)
+    if (found.insert(read.tag).second) reading.tags.push_back(read);
+  for (const ReadTag& read : missing)
+    if (!found.contains(read.tag))
+      reading.left_out.push_back(
+          Named(read, "was not found, although the other tags predict it to be inside the image"));
   return reading;
 }
 
@@ -196,9 +216,8 @@ TagBoardDetector::Reading TagBoardDetector::WithOthers(const GrayImage& image, s
 std::optional<ReadTag> TagBoardDetector::LookFor(const GrayImage& image, const ReadTag& predicted,
                                                  const CornerExpectations& expected) const {
   const std::vector<CornerFit> fits = FitCorners(image, Expected({predicted}), kDetectedSigma_px, expected);
-  for (const CornerFit& fit : fits)
-    if (fit.status != CornerStatus::kFitted || fit.contrast < 0) return std::nullopt;
-  const ReadTag seen = Refined({predicted}, fits).front();
+  if (!IsFittedWhole(fits.data())) return std::nullopt;
+  const ReadTag seen = Refined(predicted, fits.data());
   if (Likeness(image, seen) < kLeastLikeness) return std::nullopt;
   return seen;
 }

@@ -39,7 +39,7 @@ class TagBoardDetector {
   double Gap_m(size_t tag, size_t corner) const;
   Reading OwnTags(const std::vector<TagDetection>& detections) const;
   Reading Agreeing(const std::vector<ReadTag>& read) const;
-  Reading WithOthers(const GrayImage& image, std::vector<ReadTag> tags,
+  Reading WithOthers(const GrayImage& image, std::vector<ReadTag> whole, const std::vector<ReadTag>& partial,
                      const CornerExpectations& expected) const;
   std::optional<ReadTag> LookFor(const GrayImage& image, const ReadTag& predicted,
                                  const CornerExpectations& expected) const;

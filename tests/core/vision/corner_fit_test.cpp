@@ -151,7 +151,7 @@ Scatter ScatterOf(const CornerSite& site, const CornerExpectations& expected, in
                   std::mt19937_64& generator) {
   constexpr int kSize_px = 33;
   CornerSite inside = site;
-  inside.pixel += Eigen::Vector2d::Constant(kSize_px / 2);
+  inside.pixel += Eigen::Vector2d::Constant(0.5 * (kSize_px - 1));
   const CleanImage clean = RenderScene(CellScene(inside, 30, 220), PixelCamera(kSize_px), 0, kLensBlur_px);
   Scatter scatter;
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero(), reported = Eigen::Matrix2d::Zero();
