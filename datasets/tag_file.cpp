@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <set>
-
 #include "datasets/atomic_file.h"
-#include "datasets/text.h"
+#include "datasets/tag_yaml.h"
 #include "datasets/yaml_value.h"
 
 namespace legible {
@@ -24,32 +21,14 @@ TagCarrier CarrierFromYaml(const YamlValue& value) {
   return TagCarrier::kPlatform;
 }
 
-// The smallest triangle of three neighbouring corners over the half of what the diagonals span: 1 for a
-// square, 0 where corners coincide or three of them lie on a line.
-double Fullness(const std::array<Eigen::Vector3d, 4>& corners_m) {
-  const double whole = (corners_m[2] - corners_m[0]).cross(corners_m[3] - corners_m[1]).norm();
-  double least = whole;
-  for (size_t i = 0; i < 4; ++i)
-    least = std::min(
-        least, (corners_m[(i + 1) % 4] - corners_m[i]).cross(corners_m[(i + 2) % 4] - corners_m[i]).norm());
-  return whole > 0 ? 2 * least / whole : 0;
-}
-
 Tag TagFromYaml(const YamlValue& section, const TagFamily& family) {
   section.AllowKeys({"id", "corners_m"});
   Tag tag;
-  tag.id = section.Get("id").Integer();
-  if (tag.id < 0 || tag.id >= family.tags)
-    section.Fail(fmt::format("has the id {}", tag.id),
-                 fmt::format("{} has the ids 0 to {}", family.name, family.tags - 1));
+  tag.id = TagIdFromYaml(section, family);
   const YamlValue corners = section.Get("corners_m");
   const std::vector<YamlValue> list = corners.List(4);
   for (size_t i = 0; i < 4; ++i) tag.corners_m[i] = list[i].Vector3();
-  constexpr double kLeastFullness = 0.1;
-  if (Fullness(tag.corners_m) < kLeastFullness) {
-    corners.Fail("are not those of a square",
-                 "give bottom-left, bottom-right, top-right, top-left of the black border");
-  }
+  DemandSquare(corners, tag.corners_m);
   return tag;
 }
 
@@ -67,29 +46,6 @@ TagGroup GroupFromYaml(const YamlValue& section, const TagFamily& family) {
   for (const YamlValue& tag : section.Get("tags").List()) group.tags.push_back(TagFromYaml(tag, family));
   return group;
 }
-
-const TagFamily& FamilyFromYaml(const YamlValue& value) {
-  const std::string name = value.Text();
-  std::vector<std::string> names;
-  for (const TagFamily& family : kTagFamilies) {
-    if (family.name == name) return family;
-    names.push_back(family.name);
-  }
-  value.Fail(fmt::format("is \"{}\", which libapriltag does not have", name),
-             fmt::format("the nearest that it has is {}", NearestName(name, names)));
-}
-
-// A name or an id that is there already means that the file contradicts itself.
-class Once {
- public:
-  void Demand(const YamlValue& section, const std::string& what) {
-    if (!seen_.insert(what).second)
-      section.Fail(fmt::format("has {}, which is there already", what), "keep one");
-  }
-
- private:
-  std::set<std::string> seen_;
-};
 
 std::string TagToYaml(const Tag& tag) {
   std::vector<std::string> corners;

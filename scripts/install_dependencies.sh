@@ -14,7 +14,7 @@ mold                 links quickly
 libeigen3-dev        vectors and matrices
 libceres-dev         least squares
 libgoogle-glog-dev   what Ceres logs through
-libopencv-dev        reads images; first pose from tags
+libopencv-dev        reads images; first pose from tags; finds chessboards and wide-bordered tags
 libapriltag-dev      finds AprilTags
 libembree-dev        traces the rays of the simulated camera
 libyaml-cpp-dev      reads YAML
@@ -23,7 +23,7 @@ libcli11-dev         command line
 libfmt-dev           formatted text
 libtbb-dev           works on several images at a time
 libqhull-dev         convex hulls of errors
-libboost-dev         Sobol points, Gauss rules
+libboost-dev         Sobol points, Gauss rules, Owen's T for blurred corners
 zlib1g-dev           whether a PNG is whole
 libssl-dev           SHA-256 of a session, base64 of pictures
 libgtest-dev         tests

@@ -20,6 +20,9 @@ struct TagBoard {
   std::vector<Tag> tags;
 };
 
+// Families whose tags can be read with borders wider than a bit.
+inline const std::vector<std::string> kWideBorderFamilies = {"tag36h11", "tag36h10", "tag25h9", "tag16h5"};
+
 // A chessboard by its inner corners.
 struct Chessboard {
   int columns = 0, rows = 0;                 // inner corners

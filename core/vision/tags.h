@@ -20,17 +20,35 @@ struct TagDetection {
   std::array<Eigen::Vector2d, 4> corners_px;
 };
 
+struct TagDetectorOptions {
+  double decimation =
+      2;  // outlines are looked for in an image that is smaller by this; 1 finds the smallest tags
+  int border_bits = 1;  // width of the border in the tag's own bits
+};
+
+// What is printed of a tag, module by module, row by row from the top, with the ring of modules outside the
+// border that belong to it.
+struct TagPicture {
+  int modules = 0;  // across the picture
+  int ring = 0;     // modules outside the border's outer edge
+  std::vector<bool> is_light;
+};
+
 // Finds tags of one family. Holds the library's detector, which is costly to make; not for use by two
 // threads.
 class TagDetector {
  public:
-  // Throws std::invalid_argument for a family that libapriltag does not have.
-  explicit TagDetector(const std::string& family);
+  // Throws std::invalid_argument for a family that libapriltag does not have, and for wider borders about
+  // other tags than those of tag16h5, tag25h9, tag36h10 and tag36h11.
+  explicit TagDetector(const std::string& family, const TagDetectorOptions& options = {});
   ~TagDetector();
   TagDetector(const TagDetector&) = delete;
   TagDetector& operator=(const TagDetector&) = delete;
 
   std::vector<TagDetection> Detect(const GrayImage& image) const;
+
+  // Throws std::invalid_argument for an id that the family does not have.
+  TagPicture PictureOf(int id) const;
 
  private:
   struct Library;

@@ -3,12 +3,10 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <random>
-#include <vector>
 
 #include "core/geometry/camera.h"
-#include "core/vision/gray_image.h"
 #include "core/vision/predicted_legs.h"
+#include "tests/testing/render_scene.h"
 
 namespace legible {
 
@@ -26,18 +24,8 @@ struct RenderOptions {
   double blur_px = 0.8;  // standard deviation of the lens's Gaussian; the pixels' own extent is added
 };
 
-// Brightness before noise and rounding, row by row.
-struct CleanImage {
-  int width = 0;
-  int height = 0;
-  std::vector<float> grey;
-};
-
 // Legs in front hide legs behind. Sight lines follow the camera's lens: each pixel near an edge is the mean
 // of 208 exact intersections of sight lines with the cylinders, blurred before they are gathered into pixels.
 CleanImage RenderLegs(const LegsInCamera& legs, const Camera& camera, const RenderOptions& options);
-
-// Adds normal noise to each pixel and rounds.
-GrayImage WithNoise(const CleanImage& clean, double sigma_grey, std::mt19937_64& generator);
 
 }  // namespace legible

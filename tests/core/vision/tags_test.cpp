@@ -13,15 +13,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <opencv2/imgproc.hpp>
+#include <map>
+#include <opencv2/aruco.hpp>
 #include <random>
 #include <stdexcept>
 
 #include "datasets/synthetic_session.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
-#include "tests/testing/render_legs.h"
+#include "tests/testing/render_board.h"
 
 namespace legible {
 namespace {
@@ -35,7 +35,7 @@ Tag SquareTag(int id, const Eigen::Vector3d& centre_m) {
            centre_m + Eigen::Vector3d(h, h, 0), centre_m + Eigen::Vector3d(-h, h, 0)}};
 }
 
-TagGroup Board() {
+TagGroup TwoTags() {
   TagGroup group;
   group.name = "board";
   group.tags = {SquareTag(3, {-0.06, 0, 0}), SquareTag(7, {0.06, 0.02, 0})};
@@ -48,75 +48,6 @@ Rigid3 TruePose() {
   return {RotationFromVector({0.3, -0.4, 0.2}) * facing, {0.02, -0.03, 0.6}};
 }
 
-// libapriltag's own picture of a tag, one pixel a module, row by row, with its white border.
-struct TagPicture {
-  int modules = 0, modules_of_border = 0;  // across the picture, across the black border
-  std::vector<std::uint8_t> grey;
-};
-
-TagPicture DrawTag(int id) {
-  apriltag_family_t* family = tag36h11_create();
-  image_u8_t* image = apriltag_to_image(family, static_cast<uint32_t>(id));
-  TagPicture picture{image->width, family->width_at_border, {}};
-  for (int row = 0; row < image->height; ++row)
-    picture.grey.insert(picture.grey.end(), image->buf + row * image->stride,
-                        image->buf + row * image->stride + image->width);
-  std::free(image->buf);  // the library does not export image_u8_destroy
-  std::free(image);
-  tag36h11_destroy(family);
-  return picture;
-}
-
-// Brightness of a board of tags at places of its plane.
-class BoardPicture {
- public:
-  explicit BoardPicture(const TagGroup& group) : group_(group) {
-    for (const Tag& tag : group.tags) pictures_.push_back(DrawTag(tag.id));
-  }
-
-  double At(const Eigen::Vector2d& place_m) const {
-    for (size_t i = 0; i < pictures_.size(); ++i) {
-      const TagPicture& picture = pictures_[i];
-      const auto& corners_m = group_.tags[i].corners_m;
-      const Eigen::Vector2d centre = (corners_m[0] + corners_m[2]).head<2>() / 2;
-      const Eigen::Vector2d module = (place_m - centre) / kTag_m * picture.modules_of_border;
-      const double column = picture.modules / 2.0 + module.x(), row = picture.modules / 2.0 - module.y();
-      if (std::min(column, row) < 0 || std::max(column, row) >= picture.modules) continue;
-      const int at = static_cast<int>(row) * picture.modules + static_cast<int>(column);
-      return picture.grey[static_cast<size_t>(at)] > 0 ? 220 : 30;
-    }
-    return 220;
-  }
-
- private:
-  const TagGroup& group_;
-  std::vector<TagPicture> pictures_;
-};
-
-GrayImage RenderBoard(const Camera& camera, std::mt19937_64& generator) {
-  const TagGroup board = Board();
-  const BoardPicture picture(board);
-  const Rigid3 group_from_camera = Inverse(TruePose());
-  CleanImage image{camera.width_px, camera.height_px, {}};
-  constexpr int kSide = 4;
-  for (int y = 0; y < camera.height_px; ++y)
-    for (int x = 0; x < camera.width_px; ++x) {
-      double sum = 0;
-      for (int ray = 0; ray < kSide * kSide; ++ray) {
-        const int row = ray / kSide, column = ray % kSide;
-        const Eigen::Vector2d offset((column + 0.5) / kSide - 0.5, (row + 0.5) / kSide - 0.5);
-        const Eigen::Vector3d sight = Unproject(camera, Eigen::Vector2d(x, y) + offset).value().homogeneous();
-        const Eigen::Vector3d direction = group_from_camera.rotation * sight;
-        const double depth = -group_from_camera.translation.z() / direction.z();
-        sum += picture.At((group_from_camera.translation + depth * direction).head<2>());
-      }
-      image.grey.push_back(static_cast<float>(sum / (kSide * kSide)));
-    }
-  cv::Mat mat(image.height, image.width, CV_32FC1, image.grey.data());
-  cv::GaussianBlur(mat, mat, cv::Size(), 0.7);  // as a lens would
-  return WithNoise(image, 2, generator);
-}
-
 Camera SmallCamera() {
   Camera camera = DesktopCamera(true);
   camera.width_px = 640;
@@ -127,12 +58,17 @@ Camera SmallCamera() {
   return camera;
 }
 
+GrayImage RenderGroup(const Camera& camera, std::mt19937_64& generator) {
+  const Board board{"board", TagBoard{"tag36h11", 1, false, TwoTags().tags}, std::nullopt};
+  return WithNoise(RenderBoard(board, camera, TruePose()), 2, generator);
+}
+
 TEST(TagDetector, FindsTheCornersOfRenderedTagsInThisPixelConvention) {
   std::mt19937_64 generator = TestGenerator();
   const Camera camera = SmallCamera();
-  const std::vector<TagDetection> found = TagDetector("tag36h11").Detect(RenderBoard(camera, generator));
+  const std::vector<TagDetection> found = TagDetector("tag36h11").Detect(RenderGroup(camera, generator));
   ASSERT_EQ(found.size(), 2);
-  for (const Tag& tag : Board().tags) {
+  for (const Tag& tag : TwoTags().tags) {
     const auto detection =
         std::find_if(found.begin(), found.end(), [&](const TagDetection& d) { return d.id == tag.id; });
     ASSERT_NE(detection, found.end());
@@ -158,7 +94,7 @@ TEST(TagDetector, RejectsAnUnknownFamilyAndNamesTheKnown) {
 
 std::vector<TagDetection> ExactDetections(const Camera& camera) {
   std::vector<TagDetection> detections;
-  for (const Tag& tag : Board().tags) {
+  for (const Tag& tag : TwoTags().tags) {
     TagDetection detection{tag.id, {}};
     for (size_t i = 0; i < 4; ++i) detection.corners_px[i] = Project(camera, TruePose() * tag.corners_m[i]);
     detections.push_back(detection);
@@ -168,7 +104,7 @@ std::vector<TagDetection> ExactDetections(const Camera& camera) {
 
 TEST(LocateGroup, RecoversThePoseOfExactCorners) {
   const Camera camera = SmallCamera();
-  const auto found = LocateGroup(camera, Match(Board(), ExactDetections(camera)));
+  const auto found = LocateGroup(camera, Match(TwoTags(), ExactDetections(camera)));
   ASSERT_TRUE(found);
   EXPECT_TRUE(AreNear(Displacement(TruePose(), found->camera_from_group), Vector6d::Zero(), 1e-6));
   EXPECT_LT(found->rms_px, 1e-3);
@@ -177,8 +113,8 @@ TEST(LocateGroup, RecoversThePoseOfExactCorners) {
 TEST(LocateGroup, RecoversThePoseOfARenderedBoard) {
   std::mt19937_64 generator = TestGenerator();
   const Camera camera = SmallCamera();
-  const auto detections = TagDetector("tag36h11").Detect(RenderBoard(camera, generator));
-  const auto found = LocateGroup(camera, Match(Board(), detections));
+  const auto detections = TagDetector("tag36h11").Detect(RenderGroup(camera, generator));
+  const auto found = LocateGroup(camera, Match(TwoTags(), detections));
   ASSERT_TRUE(found);
   const Vector6d error = Displacement(TruePose(), found->camera_from_group);
   EXPECT_LT(error.head<3>().norm(), 1e-3);
@@ -188,14 +124,14 @@ TEST(LocateGroup, RecoversThePoseOfARenderedBoard) {
 
 TEST(LocateGroup, HasNoPoseWithoutItsTags) {
   const Camera camera = SmallCamera();
-  EXPECT_FALSE(LocateGroup(camera, Match(Board(), {})));
+  EXPECT_FALSE(LocateGroup(camera, Match(TwoTags(), {})));
 }
 
 TEST(Match, TakesOnlyTheGroupsOwnTags) {
   const Camera camera = SmallCamera();
   std::vector<TagDetection> detections = ExactDetections(camera);
   detections[0].id = 99;
-  EXPECT_EQ(Match(Board(), detections).corners_px.size(), 4);
+  EXPECT_EQ(Match(TwoTags(), detections).corners_px.size(), 4);
 }
 
 TEST(TagDetector, KnowsEveryFamilyThatASessionMayName) {
@@ -206,6 +142,51 @@ TEST(TagDetector, KnowsEveryFamilyThatASessionMayName) {
     for (const TagFamily& family : kTagFamilies)
       EXPECT_NE(std::string(error.what()).find(family.name), std::string::npos) << family.name;
   }
+}
+
+// The same tags drawn by cv::aruco, whose pictures are upside down compared with libapriltag's.
+TEST(TagPicture, WithAWideBorderIsThatOfAruco) {
+  const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> dictionaries = {
+      {"tag16h5", cv::aruco::DICT_APRILTAG_16h5},
+      {"tag25h9", cv::aruco::DICT_APRILTAG_25h9},
+      {"tag36h10", cv::aruco::DICT_APRILTAG_36h10},
+      {"tag36h11", cv::aruco::DICT_APRILTAG_36h11},
+  };
+  for (const std::string& family : kWideBorderFamilies) {
+    const TagDetector detector(family, {.decimation = 1, .border_bits = 2});
+    const auto dictionary = cv::aruco::getPredefinedDictionary(dictionaries.at(family));
+    for (const int id : {0, 1, 17, 29}) {
+      const TagPicture picture = detector.PictureOf(id);
+      cv::Mat drawn;
+      cv::aruco::drawMarker(dictionary, id, picture.modules, drawn, 2);
+      cv::rotate(drawn, drawn, cv::ROTATE_180);
+      for (int at = 0; at < picture.modules * picture.modules; ++at)
+        EXPECT_EQ(picture.is_light[static_cast<size_t>(at)],
+                  drawn.at<std::uint8_t>(at / picture.modules, at % picture.modules) > 0)
+            << family << " " << id << " " << at;
+    }
+  }
+}
+
+// Kalibr draws bit 6 i + j of the code, light where it is 1, in row i and column j counted from the
+// bottom-right of the tag (kalibr_create_target_pdf: rotation = 2); tag 0 is 0xd5d628584.
+TEST(TagPicture, WithATwoBitBorderIsWhatKalibrPrints) {
+  const TagPicture picture = TagDetector("tag36h11", {.decimation = 1, .border_bits = 2}).PictureOf(0);
+  ASSERT_EQ(picture.modules, 10);
+  EXPECT_EQ(picture.ring, 0);
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 10; ++column) {
+      const int i = 7 - row, j = 7 - column;
+      const bool is_code = i >= 0 && i < 6 && j >= 0 && j < 6;
+      EXPECT_EQ(picture.is_light[static_cast<size_t>(10 * row + column)],
+                is_code && (0xd5d628584 >> (6 * i + j) & 1) == 1)
+          << row << " " << column;
+    }
+}
+
+TEST(TagDetector, RefusesWideBordersThatNobodyReads) {
+  EXPECT_THROW(TagDetector("tagStandard41h12", {.decimation = 1, .border_bits = 2}), std::invalid_argument);
+  EXPECT_THROW(TagDetector("tag36h11").PictureOf(587), std::invalid_argument);
 }
 
 TEST(TagFamilies, HaveAsManyTagsAsLibapriltagHas) {

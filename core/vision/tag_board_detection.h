@@ -1,0 +1,57 @@
+// A board of tags in images.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/session/board.h"
+#include "core/vision/board_corners.h"
+#include "core/vision/gray_image.h"
+#include "core/vision/tag_agreement.h"
+#include "core/vision/tags.h"
+
+namespace legible {
+
+// See BoardDetector.
+class TagBoardDetector {
+ public:
+  // Throws std::invalid_argument as BoardDetector does.
+  explicit TagBoardDetector(const TagBoard& board);
+
+  BoardSighting Detect(const GrayImage& image) const;
+
+ private:
+  // What is printed about one corner of a tag.
+  struct CornerPattern {
+    std::array<Eigen::Vector2d, 2> edges_m;  // along both edges to the next lines
+    CornerCells cells;
+    bool knows_beyond;
+  };
+  // Tags, and what is left out besides.
+  struct Reading {
+    std::vector<ReadTag> tags;
+    std::vector<LeftOut> left_out;
+  };
+
+  CornerPattern PatternOf(size_t tag, size_t corner) const;
+  double Gap_m(size_t tag, size_t corner) const;
+  Reading OwnTags(const std::vector<TagDetection>& detections) const;
+  Reading Agreeing(const std::vector<ReadTag>& read) const;
+  Reading WithOthers(const GrayImage& image, std::vector<ReadTag> whole, const std::vector<ReadTag>& partial,
+                     const CornerExpectations& expected) const;
+  std::optional<ReadTag> LookFor(const GrayImage& image, const ReadTag& predicted,
+                                 const CornerExpectations& expected) const;
+  std::array<Eigen::Vector2d, 4> PredictedByNearest(size_t tag, const std::vector<ReadTag>& read) const;
+  double Likeness(const GrayImage& image, const ReadTag& read) const;
+  std::vector<ExpectedCorner> Expected(const std::vector<ReadTag>& read) const;
+  LeftOut Named(const ReadTag& read, const std::string& reason) const;
+
+  TagBoard board_;
+  TagDetector detector_;
+  std::map<int, size_t> index_by_id_;
+  std::vector<std::array<CornerPattern, 4>> patterns_;
+};
+
+}  // namespace legible
