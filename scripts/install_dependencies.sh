@@ -18,6 +18,7 @@ libopencv-dev        reads images; first pose from tags
 libapriltag-dev      finds AprilTags
 libembree-dev        traces the rays of the simulated camera
 libyaml-cpp-dev      reads YAML
+libpugixml-dev       reads cameras in ViSP's and OpenCV's XML
 nlohmann-json3-dev   writes JSON
 libcli11-dev         command line
 libfmt-dev           formatted text

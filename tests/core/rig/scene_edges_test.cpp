@@ -147,9 +147,7 @@ TEST(SceneEdges, AreAsWideAsBlurAndPixelMakeThem) {
 double MeanOffset(const LegEdge& edge, const PredictedEdge& truth, const Camera& camera) {
   double sum = 0;
   for (const EdgeSample& sample : edge.observation.samples)
-    sum += DistanceToEdge(ParametersOf(camera), truth.normal, sample.point_px, sample.normal_px)
-               .value()
-               .distance_px;
+    sum += DistanceToEdge(camera, truth.normal, sample.point_px, sample.normal_px).value().distance_px;
   return sum / static_cast<double>(edge.observation.samples.size());
 }
 
