@@ -6,6 +6,7 @@
 #include "apps/accuracy_command.h"
 #include "apps/calibrate_command.h"
 #include "apps/capture_command.h"
+#include "apps/convert_command.h"
 #include "apps/replay_command.h"
 #include "apps/servo_command.h"
 #include "apps/simulate_command.h"
@@ -58,6 +59,8 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   const CLI::App* capture_command = AddCaptureCommand(app, capture);
   SimulateSettings simulate;
   const CLI::App* simulate_command = AddSimulateCommand(app, simulate);
+  ConvertSettings convert;
+  const CLI::App* convert_command = AddConvertCommand(app, convert);
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     app.parse(std::move(arguments));
@@ -70,6 +73,7 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   if (accuracy_command->parsed()) return RunAccuracy(accuracy, console);
   if (capture_command->parsed()) return RunCapture(capture, console);
   if (simulate_command->parsed()) return RunSimulate(simulate, console);
+  if (convert_command->parsed()) return RunConvert(convert, console);
   if (servo_command->parsed()) return RunServoCommand(servo, console);
   return replay_command->parsed() ? RunReplay(replay, console) : kExitBadInput;
 }

@@ -3,15 +3,24 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/camera_parameters.h"
+
 namespace legible {
 namespace {
 
 constexpr double kDrawingSigma_m = 2e-3;
 constexpr double kGuessedFocalShare = 0.03;   // of the focal length
 constexpr double kGuessedCentreShare = 0.02;  // of the image width
-constexpr double kGuessedDistortion = 0.2;    // each coefficient
+constexpr double kGuessedDistortion = 0.2;    // each coefficient, but not more than what
+constexpr double kGuessedBend = 0.15;         // of its distance from the centre moves the image corner by
 constexpr double kUnknownLensBend_px = 12;
 constexpr double kTapePose_rad = 0.1, kLargestRange_px = 120;
+
+// Of the coefficients that the lens has.
+double SmallestSize(const Camera& camera) {
+  const int count = static_cast<int>(camera.lens);
+  return count > 0 ? CoefficientSizes(camera).head(count).minCoeff() : 1;
+}
 
 }  // namespace
 
@@ -35,7 +44,8 @@ LegCalibration FirstLook(LegCalibrationInput input, const HeldParameters& hold, 
   known.platform_joint_m = kDrawingSigma_m;
   known.joint_offset_m = kDrawingSigma_m;
   known.joint_reading_m = kDrawingSigma_m / 10;
-  known.distortion = std::min(known.distortion.value_or(kGuessedDistortion), kGuessedDistortion);
+  const double guessed = std::min(kGuessedDistortion, kGuessedBend * SmallestSize(input.camera));
+  known.distortion = std::min(known.distortion.value_or(guessed), guessed);
   known.focal_length_px = kGuessedFocalShare * input.camera.fx_px;
   known.principal_point_px = kGuessedCentreShare * input.camera.width_px;
   if (!known.radius_m) known.radius_m = 0.1 * input.drawing.legs[0].radius_m;

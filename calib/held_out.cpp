@@ -1,6 +1,7 @@
 #include "calib/held_out.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -99,6 +100,12 @@ LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& sol
   return CalibrateLegs(training, options);
 }
 
+// The least motion of a point that moves its image by that: across the line of sight.
+double AcrossSight_m(const ProjectedPoint& projected, const Eigen::Vector2d& moved_px) {
+  return (projected.d_x.transpose() * (projected.d_x * projected.d_x.transpose()).inverse() * moved_px)
+      .norm();
+}
+
 }  // namespace
 
 std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> seed) {
@@ -160,15 +167,12 @@ std::optional<GroupCheck> CheckGroup(const TagGroup& group, const Camera& camera
             Move(carrier_from_group, Vector6d::Zero(), sightings[i].corners_in_group_m[k]);
         const Eigen::Vector3d x = camera_from_carrier[i] * corner.x_in_b;
         if (x.z() <= 0) return std::nullopt;
-        const Eigen::Vector2d error = Project(camera, x) - sightings[i].corners_px[k];
+        const ProjectedPoint projected = ProjectWithJacobians(camera, x);
+        const Eigen::Vector2d error = projected.pixel - sightings[i].corners_px[k];
         px.Add(error);
-        metres.Add(error * x.z() / camera.fx_px);
-        // The lens is close to a pinhole over the corner's error: its derivative will do for a fit.
-        Eigen::Matrix<double, 2, 3> d_x;
-        d_x << camera.fx_px / x.z(), 0, -camera.fx_px * x.x() / (x.z() * x.z()), 0, camera.fy_px / x.z(),
-            -camera.fy_px * x.y() / (x.z() * x.z());
+        metres.Add(error.normalized() * AcrossSight_m(projected, error));
         const Eigen::Matrix<double, 2, 6> jacobian =
-            d_x * camera_from_carrier[i].rotation.toRotationMatrix() * corner.d_displacement;
+            projected.d_x * camera_from_carrier[i].rotation.toRotationMatrix() * corner.d_displacement;
         information += jacobian.transpose() * jacobian;
         moment -= jacobian.transpose() * error;
       }

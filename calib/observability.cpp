@@ -30,18 +30,6 @@ struct NamedDirection {
   Eigen::VectorXd direction;
 };
 
-// A coefficient's size is what moves the image corner by its whole distance from the centre.
-Distortion CoefficientSizes(const Camera& camera) {
-  const double r2 = Eigen::Vector2d(camera.cx_px / camera.fx_px, camera.cy_px / camera.fy_px).squaredNorm();
-  const double r = std::sqrt(r2), r4 = r2 * r2;
-  Distortion sizes;
-  if (camera.lens == LensModel::kFisheye)  // there r is the angle
-    sizes << 1 / r2, 1 / r4, 1 / (r2 * r4), 1 / (r4 * r4), Eigen::Vector4d::Ones();
-  else
-    sizes << 1 / r2, 1 / r4, 1 / r, 1 / r, 1 / (r2 * r4), 1 / r2, 1 / r4, 1 / (r2 * r4);
-  return sizes;
-}
-
 // The size of the thing that each parameter describes, so that a relative sigma of 1 means "not known at
 // all".
 Eigen::VectorXd NaturalSizes(const EstimationProblem& problem) {

@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "datasets/atomic_file.h"
+#include "datasets/camera_formats/camera_format.h"
+#include "datasets/camera_formats/camera_readers.h"
+#include "datasets/camera_formats/plausible_camera.h"
+#include "datasets/text.h"
 #include "datasets/yaml_value.h"
 
 namespace legible {
 namespace {
-
-constexpr double kShortestFocalLength = 0.2;  // of the image size: a field of view of 136 degrees
-constexpr double kLongestFocalLength = 50;    // of the image size: 1.1 degrees
 
 const std::vector<std::string> kCameraKeys = {"image_width",
                                               "image_height",
@@ -46,27 +46,6 @@ std::string MatrixText(int rows, int columns, const std::vector<double>& values)
                      ListText(values.data(), values.size()));
 }
 
-void DemandPlausibleFocalLength(const YamlValue& section, const char* name, double focal_px, const char* side,
-                                int size_px) {
-  if (focal_px >= kShortestFocalLength * size_px && focal_px <= kLongestFocalLength * size_px) return;
-  if (focal_px <= 0)
-    section.Fail(fmt::format("has {} {} px", name, focal_px), "give a number greater than 0");
-  const double field_of_view_deg = 2 * std::atan2(0.5 * size_px, focal_px) * 180 / std::numbers::pi;
-  section.Fail(
-      fmt::format("has {} {} px for an image {} px {}, which means a field of view of {:.3g} degrees", name,
-                  focal_px, size_px, side, field_of_view_deg),
-      fmt::format("give the focal length in pixels, between {} and {} times that size", kShortestFocalLength,
-                  kLongestFocalLength));
-}
-
-// Lenses are shifted, and images cut out of larger ones, but not by as much as the image.
-void DemandNearImage(const YamlValue& section, const char* name, double centre_px, const char* side,
-                     int size_px) {
-  if (centre_px >= -0.5 * size_px && centre_px <= 1.5 * size_px) return;
-  section.Fail(fmt::format("has {} {} px for an image {} px {}", name, centre_px, size_px, side),
-               "give the principal point in pixels, in the image or near it");
-}
-
 void ReadIntrinsics(const YamlValue& section, Camera& camera) {
   const std::vector<double> k = MatrixFromYaml(section);
   if (k.size() != 9) section.Fail(fmt::format("has {} values", k.size()), "give the 9 of a 3 x 3 matrix");
@@ -77,10 +56,7 @@ void ReadIntrinsics(const YamlValue& section, Camera& camera) {
   camera.fy_px = k[4];
   camera.cx_px = k[2];
   camera.cy_px = k[5];
-  DemandPlausibleFocalLength(section, "fx", camera.fx_px, "wide", camera.width_px);
-  DemandPlausibleFocalLength(section, "fy", camera.fy_px, "high", camera.height_px);
-  DemandNearImage(section, "cx", camera.cx_px, "wide", camera.width_px);
-  DemandNearImage(section, "cy", camera.cy_px, "high", camera.height_px);
+  if (const auto wrong = WhatIsImplausible(camera)) section.Fail(wrong->what_is_wrong, wrong->what_to_do);
 }
 
 LensModel LensFromYaml(const YamlValue& model) {
@@ -149,6 +125,17 @@ Camera ReadCameraInfo(const YamlValue& section) {
   return camera;
 }
 
+CameraFile ReadRosCamera(const std::filesystem::path& file, const std::string& text) {
+  const YamlValue root = YamlValue::Parse(file, text);
+  std::vector<std::string> keys = kCameraKeys;
+  keys.emplace_back("camera_from_base");
+  root.AllowKeys(keys);
+  CameraFile result;
+  result.camera = ReadCameraInfo(root);
+  if (const auto placement = root.Find("camera_from_base")) result.camera_from_base = placement->Rigid();
+  return result;
+}
+
 }  // namespace
 
 Camera CameraFromYaml(const YamlValue& section) {
@@ -171,28 +158,39 @@ std::string CameraToYaml(const Camera& camera) {
 }
 
 CameraFile ReadCamera(const std::filesystem::path& file) {
-  const YamlValue root = YamlValue::LoadFile(file);
-  std::vector<std::string> keys = kCameraKeys;
-  keys.emplace_back("camera_from_base");
-  root.AllowKeys(keys);
-  CameraFile result;
-  result.camera = ReadCameraInfo(root);
-  if (const auto placement = root.Find("camera_from_base")) result.camera_from_base = placement->Rigid();
-  return result;
+  const std::string text = ReadTextFile(file);
+  switch (RecogniseCameraFormat(text)) {
+    case CameraFormat::kOpenCv:
+      return ReadOpenCvCamera(file, text);
+    case CameraFormat::kKalibr:
+      return ReadKalibrCamera(file, text);
+    case CameraFormat::kVisp:
+      return ReadVispCamera(file, text);
+    case CameraFormat::kMrcal:
+      return ReadMrcalCamera(file, text);
+    case CameraFormat::kRos:
+      break;
+  }
+  return ReadRosCamera(file, text);
 }
 
 // ROS wants a rectification and a projection too; those of the raw image are the identity and the camera
 // matrix.
-void WriteCamera(const std::filesystem::path& file, const Camera& camera,
-                 const std::optional<Rigid3>& camera_from_base) {
+std::string CameraInfoText(const CameraFile& file) {
+  const Camera& camera = file.camera;
   const std::vector<double> identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const std::vector<double> projection = {
       camera.fx_px, 0, camera.cx_px, 0, 0, camera.fy_px, camera.cy_px, 0, 0, 0, 1, 0};
   std::string text = "camera_name: camera\n" + CameraToYaml(camera);
   text += fmt::format("rectification_matrix: {}\n", MatrixText(3, 3, identity));
   text += fmt::format("projection_matrix: {}\n", MatrixText(3, 4, projection));
-  if (camera_from_base) text += fmt::format("camera_from_base: {}\n", RigidText(*camera_from_base));
-  WriteFileAtomically(file, text);
+  if (file.camera_from_base) text += fmt::format("camera_from_base: {}\n", RigidText(*file.camera_from_base));
+  return text;
+}
+
+void WriteCamera(const std::filesystem::path& file, const Camera& camera,
+                 const std::optional<Rigid3>& camera_from_base) {
+  WriteFileAtomically(file, CameraInfoText({camera, camera_from_base}));
 }
 
 }  // namespace legible

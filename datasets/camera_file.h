@@ -1,4 +1,5 @@
-// camera.yaml: ROS camera_info YAML, optionally with the camera's place.
+// camera.yaml: ROS camera_info YAML, optionally with the camera's place; other tools' camera files in its
+// stead.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +18,17 @@ struct CameraFile {
   std::optional<Rigid3> camera_from_base;
 };
 
-// Reads what describes the raw image; of the rest of camera_info, rectification, projection, header and name
-// are passed over. distortion_model: plumb_bob (5 coefficients), rational_polynomial (8), equidistant (4),
-// none or nothing (0). Throws InputError for anything else: unknown keys, skew, binning, a region of
-// interest, a focal length that makes no sense for the image size (below 0.2 or above 50 times the width or
-// height).
+// Reads any format of CameraFormat, recognised by its content; of those of other tools what their readers say
+// (datasets/camera_formats/camera_readers.h). Of ROS camera_info it reads what describes the raw image; of
+// the rest, rectification, projection, header and name are passed over. distortion_model: plumb_bob (5
+// coefficients), rational_polynomial (8), equidistant (4), none or nothing (0). Throws InputError for
+// anything else: unknown keys, skew, binning, a region of interest, a focal length that makes no sense for
+// the image size (below 0.2 or above 50 times the width or height).
 CameraFile ReadCamera(const std::filesystem::path& file);
+
+// The text of a camera.yaml, which ReadCamera takes back to the same bits. Throws std::invalid_argument if a
+// number is not finite.
+std::string CameraInfoText(const CameraFile& camera);
 
 // Writes so that ReadCamera gives back the same bits and ROS reads it too. Throws InputError if the file
 // cannot be written and std::invalid_argument if a number is not finite.

@@ -7,7 +7,9 @@
 
 #include "datasets/atomic_file.h"
 #include "datasets/camera_file.h"
+#include "datasets/camera_formats/camera_format.h"
 #include "datasets/robot_file.h"
+#include "datasets/text.h"
 #include "datasets/yaml_value.h"
 
 namespace legible {
@@ -105,6 +107,11 @@ CalibratedModel ReadModel(const std::filesystem::path& file) {
   CalibratedModel drawing;
   drawing.robot = RobotFromYaml(root);
   return drawing;
+}
+
+bool HoldsRobot(const std::filesystem::path& file) {
+  const std::string text = ReadTextFile(file);
+  return RecogniseCameraFormat(text) == CameraFormat::kRos && YamlValue::Parse(file, text).Find("robot");
 }
 
 std::string ModelToYaml(const CalibratedModel& model) {

@@ -18,6 +18,9 @@ std::string ReadTextFile(const std::filesystem::path& file);
 // Without white space (a carriage return too) at both ends.
 std::string_view Trimmed(std::string_view text);
 
+// With blanks for line ends and other control characters: what a file holds is quoted, and may hold anything.
+std::string OneLine(std::string text);
+
 // A finite decimal number that takes up the whole of `text`; nothing otherwise.
 std::optional<double> ParseFinite(std::string_view text);
 std::optional<int> ParseInteger(std::string_view text);

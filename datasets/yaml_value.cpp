@@ -17,8 +17,7 @@ constexpr double kLargestNormError = 1e-3;  // of a quaternion written with thre
 // What rounding leaves of a unit quaternion: one that this program wrote reads back bit by bit.
 constexpr double kRoundingOfNorm = 1e-14;
 
-std::vector<YAML::Node> LoadDocuments(const std::filesystem::path& file) {
-  const std::string text = ReadTextFile(file);
+std::vector<YAML::Node> LoadDocuments(const std::filesystem::path& file, const std::string& text) {
   try {
     return YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
@@ -39,8 +38,10 @@ YamlValue::YamlValue(const YAML::Node& node, std::shared_ptr<const std::filesyst
                      std::string keys, int line)
     : node_(node), file_(std::move(file)), keys_(std::move(keys)), line_(line) {}
 
-YamlValue YamlValue::LoadFile(const std::filesystem::path& file) {
-  const std::vector<YAML::Node> documents = LoadDocuments(file);
+YamlValue YamlValue::LoadFile(const std::filesystem::path& file) { return Parse(file, ReadTextFile(file)); }
+
+YamlValue YamlValue::Parse(const std::filesystem::path& file, const std::string& text) {
+  const std::vector<YAML::Node> documents = LoadDocuments(file, text);
   if (documents.empty() || documents[0].IsNull()) {
     throw InputError(file, 0, "is empty", "fill it in, or name another file");
   }

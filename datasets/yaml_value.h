@@ -22,9 +22,13 @@ class YamlValue {
  public:
   // The one document of a file.
   static YamlValue LoadFile(const std::filesystem::path& file);
+  // The one document of a text, `file` being its name in messages.
+  static YamlValue Parse(const std::filesystem::path& file, const std::string& text);
 
   bool IsMap() const { return node_.IsMap(); }
   bool IsNull() const { return node_.IsNull(); }
+  bool IsList() const { return node_.IsSequence(); }
+  int Line() const { return line_; }
 
   // Demands a map whose keys are all among `known`, none of them twice.
   void AllowKeys(const std::vector<std::string>& known) const;

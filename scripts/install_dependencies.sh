@@ -18,6 +18,7 @@ libopencv-dev        reads images; first pose from tags; finds chessboards and w
 libapriltag-dev      finds AprilTags
 libembree-dev        traces the rays of the simulated camera
 libyaml-cpp-dev      reads YAML
+libpugixml-dev       reads cameras in ViSP's and OpenCV's XML
 nlohmann-json3-dev   writes JSON
 libcli11-dev         command line
 libfmt-dev           formatted text
@@ -29,6 +30,7 @@ libssl-dev           SHA-256 of a session, base64 of pictures
 libgtest-dev         tests
 libgmock-dev         tests
 libbenchmark-dev     benchmarks
+libvisp-core-dev     tests: ViSP reads the cameras written for it
 libvisp-visual-features-dev  leg edges as features of ViSP
 libvisp-me-dev       benchmarks: ViSP's moving edges, to compare with
 libvisp-vs-dev       tests, benchmarks: ViSP's control law, to compare with
@@ -49,6 +51,9 @@ check_packages() {
   cat <<'LIST'
 clang-format         layout of the sources
 clang-tidy           static analysis
+python3-mrcal        tests: mrcal reads the cameras written for it
+python3-yaml         tests: reads the cameras written for Kalibr as Kalibr does
+linuxcnc-uspace      tests: halrun takes the lines written for genhexkins
 git                  what has changed since a commit
 LIST
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 
 namespace legible {
 
@@ -28,6 +29,17 @@ Camera WithParameters(const Camera& camera, const CameraParameters& parameters) 
   result.cy_px = parameters[3];
   result.distortion = parameters.tail<8>();
   return result;
+}
+
+Distortion CoefficientSizes(const Camera& camera) {
+  const double r2 = Eigen::Vector2d(camera.cx_px / camera.fx_px, camera.cy_px / camera.fy_px).squaredNorm();
+  const double r = std::sqrt(r2), r4 = r2 * r2;
+  Distortion sizes;
+  if (camera.lens == LensModel::kFisheye)  // there r is the angle
+    sizes << 1 / r2, 1 / r4, 1 / (r2 * r4), 1 / (r4 * r4), Eigen::Vector4d::Ones();
+  else
+    sizes << 1 / r2, 1 / r4, 1 / r, 1 / r, 1 / (r2 * r4), 1 / r2, 1 / r4, 1 / (r2 * r4);
+  return sizes;
 }
 
 ProjectedPoint ProjectWithJacobians(const Camera& camera, const Eigen::Vector3d& x_in_camera) {

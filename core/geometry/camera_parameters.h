@@ -20,6 +20,10 @@ CameraParameters ParametersOf(const Camera& camera);
 // With the lens and the size of `camera`.
 Camera WithParameters(const Camera& camera, const CameraParameters& parameters);
 
+// What of each coefficient of the lens moves the image corner by its whole distance from the centre; of
+// no meaning for those that the lens does not have.
+Distortion CoefficientSizes(const Camera& camera);
+
 // A point's pixel with its derivatives by the point and by the camera's parameters.
 struct ProjectedPoint {
   Eigen::Vector2d pixel;

@@ -19,8 +19,7 @@ double MeanOffset(const LegEdge& edge, const LegsInCamera& legs, const Camera& c
                                                  leg.radius_m)[static_cast<size_t>(edge.edge)];
   double sum = 0;
   for (const EdgeSample& sample : edge.observation.samples)
-    sum +=
-        DistanceToEdge(ParametersOf(camera), normal, sample.point_px, sample.normal_px).value().distance_px;
+    sum += DistanceToEdge(camera, normal, sample.point_px, sample.normal_px).value().distance_px;
   return sum / static_cast<double>(edge.observation.samples.size());
 }
 

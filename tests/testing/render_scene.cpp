@@ -27,8 +27,9 @@ void FillPixel(const RenderedScene& scene, const Camera& camera, double backgrou
     block = centre ? scene.Brightness(*centre) : background;
     return;
   }
-  const Eigen::Matrix2d d_pixel = Eigen::Vector2d(camera.fx_px, camera.fy_px).asDiagonal() *
-                                  DistortWithJacobians(camera.distortion, *centre).d_point_d_undistorted;
+  const Eigen::Matrix2d d_pixel =
+      Eigen::Vector2d(camera.fx_px, camera.fy_px).asDiagonal() *
+      DistortWithJacobians(camera.lens, camera.distortion, *centre).d_point_d_undistorted;
   const Eigen::Matrix2d d_undistorted = d_pixel.inverse();
   for (int row = 0; row < kFine; ++row)
     for (int column = 0; column < kFine; ++column) {

@@ -54,7 +54,7 @@ class EdgePlaces {
     start[across] -= (line - near.point_px[1 - across]) * near.normal_px[1 - across] / near.normal_px[across];
     Eigen::Vector2d outward = Eigen::Vector2d::Zero();
     outward[across] = near.normal_px[across] > 0 ? 1 : -1;
-    const auto distance = DistanceToEdge(ParametersOf(camera_), edge.normal, start, outward);
+    const auto distance = DistanceToEdge(camera_, edge.normal, start, outward);
     EdgeCrossing crossing;
     crossing.place_px = start[across] - distance.value().distance_px * outward[across];
     crossing.slope = -near.normal_px[1 - across] / near.normal_px[across];

@@ -122,6 +122,17 @@ TEST(SceneEdges, BendAsTheLensDistorts) {
   EXPECT_GT(largest_bend_px, 1);
 }
 
+TEST(SceneEdges, LieThereAlsoThroughAFisheye) {
+  std::mt19937_64 generator = TestGenerator();
+  EdgeErrors errors;
+  for (int draw = 0; draw < 2; ++draw) {
+    SimulationTruth truth = DesktopTruth(DesktopFisheye());
+    truth.camera_from_base = LookAt({0.52, 0.074, 0.3}, {0, 0, 0.13});
+    AddEdges(truth, RandomPose(generator), errors);
+  }
+  ExpectWithinAHundredth(errors, 10);
+}
+
 // The brightness across an edge rises like a Gaussian's integral, smoothed over the pixel: variances add up.
 TEST(SceneEdges, AreAsWideAsBlurAndPixelMakeThem) {
   const SimulationTruth truth = DesktopTruth(HalfCamera(true));
@@ -147,9 +158,7 @@ TEST(SceneEdges, AreAsWideAsBlurAndPixelMakeThem) {
 double MeanOffset(const LegEdge& edge, const PredictedEdge& truth, const Camera& camera) {
   double sum = 0;
   for (const EdgeSample& sample : edge.observation.samples)
-    sum += DistanceToEdge(ParametersOf(camera), truth.normal, sample.point_px, sample.normal_px)
-               .value()
-               .distance_px;
+    sum += DistanceToEdge(camera, truth.normal, sample.point_px, sample.normal_px).value().distance_px;
   return sum / static_cast<double>(edge.observation.samples.size());
 }
 

@@ -12,9 +12,12 @@
 namespace legible {
 namespace {
 
-TEST(EdgeInteraction, RowsAreHowFarEachEdgeMovesAtItsEndsByDifferences) {
+class EdgeInteractionThrough : public testing::TestWithParam<Camera> {};
+
+TEST_P(EdgeInteractionThrough, RowsAreHowFarEachEdgeMovesAtItsEndsByDifferences) {
   std::mt19937_64 generator = TestGenerator();
-  const View view;
+  View view;
+  view.camera = GetParam();
   const std::vector<int> legs = {0, 2, 3, 5};
   for (int n = 0; n < 5; ++n) {
     Vector6d place;
@@ -38,6 +41,9 @@ TEST(EdgeInteraction, RowsAreHowFarEachEdgeMovesAtItsEndsByDifferences) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Lenses, EdgeInteractionThrough,
+                         testing::Values(DesktopCamera(true), DesktopFisheye()));
 
 TEST(EdgeInteraction, IsNoneWhereALegIsBehindTheCameraOrAroundIt) {
   View view;

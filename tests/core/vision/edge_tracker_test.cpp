@@ -49,6 +49,22 @@ TEST(EdgeTracker, FollowsThemByADrawingAndAGuessedCamera) {
   EXPECT_LT(score.wrong, 0.002 * score.seen);
 }
 
+// From as near as its view is wide.
+TEST(EdgeTracker, FollowsThemThroughAFisheye) {
+  std::mt19937_64 generator = TestGenerator();
+  RobotAndDrawing robot = DrawRobot(4, kHalfSize);
+  robot.truth.camera = Halved(DesktopFisheye());
+  robot.truth.camera_from_base = LookAt({0.52, 0.074, 0.3}, {0, 0, 0.13});
+  const Wandering way(robot.truth.robot, 1.5, generator);
+  Follower follower(robot, robot.Perfect(), 4);
+  FollowingScore score;
+  for (int frame = 0; frame < 40; ++frame) follower.Follow(way.At(Follower::kPeriod_s * frame), score);
+  score.Print("perfect model, fisheye");
+  EXPECT_GE(score.seen, 0.95 * score.in_sight);
+  EXPECT_LT(score.FineRms_px(), 0.1);
+  EXPECT_EQ(score.wrong, 0);
+}
+
 // From all sides: legs hide each other and come out again.
 TEST(EdgeTracker, HardlyEverTakesSomethingElseForAnEdgeWhereLegsCrossEachOther) {
   std::mt19937_64 generator = TestGenerator();

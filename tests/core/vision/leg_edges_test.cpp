@@ -32,8 +32,7 @@ SampleErrors ErrorsOf(const LegEdge& edge, const LegsInCamera& legs, const Camer
   SampleErrors errors;
   const double count = static_cast<double>(edge.observation.samples.size());
   for (const EdgeSample& sample : edge.observation.samples) {
-    const auto distance =
-        DistanceToEdge(ParametersOf(camera), TrueNormal(legs, edge), sample.point_px, sample.normal_px);
+    const auto distance = DistanceToEdge(camera, TrueNormal(legs, edge), sample.point_px, sample.normal_px);
     errors.mean_px += distance.value().distance_px / count;
     errors.largest_px = std::max(errors.largest_px, std::abs(distance->distance_px));
   }
@@ -157,8 +156,8 @@ TEST_P(LegEdgesThroughLens, TheirPlacesDoNotDependOnWhereTheyWerePredicted) {
       SCOPED_TRACE("leg " + std::to_string(i / 2 + 1) + " edge " + std::to_string(i % 2 + 1));
       const double sigma_px = from_truth.edges[i].observation.common_sigma_px;
       for (const EdgeSample& sample : found.edges[i].observation.samples) {
-        const auto off = DistanceToEdge(ParametersOf(scene.camera), from_truth.edges[i].normal,
-                                        sample.point_px, sample.normal_px);
+        const auto off =
+            DistanceToEdge(scene.camera, from_truth.edges[i].normal, sample.point_px, sample.normal_px);
         EXPECT_LT(std::abs(off.value().distance_px), std::max(3 * sigma_px, 0.05));
         ++compared;
       }

@@ -1,0 +1,48 @@
+#include "datasets/camera_formats/camera_format.h"
+
+#include "datasets/text.h"
+
+namespace legible {
+namespace {
+
+bool Holds(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+// From the first line on that is neither empty nor a comment.
+std::string_view WithoutLeadingComments(std::string_view text) {
+  for (;;) {
+    text = Trimmed(text);
+    if (text.empty() || text.front() != '#') return text;
+    const size_t end = text.find('\n');
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end);
+  }
+}
+
+}  // namespace
+
+CameraFormat RecogniseCameraFormat(std::string_view text) {
+  const std::string_view body = WithoutLeadingComments(text);
+  if (body.starts_with('<'))
+    return Holds(body, "<opencv_storage") ? CameraFormat::kOpenCv : CameraFormat::kVisp;
+  if (body.starts_with('{') && (Holds(body, "LENSMODEL_") || Holds(body, "DISTORTION_")))
+    return CameraFormat::kMrcal;
+  if (body.starts_with("%YAML") || Holds(body, "!!opencv-matrix")) return CameraFormat::kOpenCv;
+  return Holds(body, "camera_model:") ? CameraFormat::kKalibr : CameraFormat::kRos;
+}
+
+const char* NameOf(CameraFormat format) {
+  switch (format) {
+    case CameraFormat::kRos:
+      return "ROS camera_info YAML";
+    case CameraFormat::kOpenCv:
+      return "OpenCV's FileStorage";
+    case CameraFormat::kKalibr:
+      return "Kalibr's camchain";
+    case CameraFormat::kVisp:
+      return "ViSP's XML";
+    case CameraFormat::kMrcal:
+      return "mrcal's cameramodel";
+  }
+  return "";
+}
+
+}  // namespace legible
