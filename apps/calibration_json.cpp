@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/camera_json.h"
 #include "apps/json_text.h"
 #include "apps/judgement.h"
 #include "apps/program.h"
@@ -17,23 +18,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 ordered_json OrNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
-}
-
-// fx, fy, cx, cy and the lens's coefficients; a pinhole's are five zeros.
-ordered_json CameraValues(const CameraParameters& values, LensModel lens) {
-  const int coefficients = static_cast<int>(lens == LensModel::kPinhole ? LensModel::kBrownConrady : lens);
-  return {{"fx", values[0]},
-          {"fy", values[1]},
-          {"cx", values[2]},
-          {"cy", values[3]},
-          {"distortion", List(values.segment(4, coefficients))}};
-}
-
-ordered_json CameraJson(const Camera& camera, const CameraParameters& values) {
-  ordered_json json = {
-      {"width_px", camera.width_px}, {"height_px", camera.height_px}, {"lens", LensName(camera.lens)}};
-  json.update(CameraValues(values, camera.lens));
-  return json;
 }
 
 ordered_json PlacementJson(const std::optional<Rigid3>& camera_from_base) {

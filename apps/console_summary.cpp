@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -14,11 +13,6 @@ namespace legible {
 namespace {
 
 constexpr size_t kSentencesPrinted = 8;  // of what is open; calibration.json has all
-
-std::string Capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 std::string HeadLine(const CalibrationRun& run) {
   std::string status = Capitalised(ToString(run.result.calibration.status));

@@ -7,6 +7,7 @@
 #include "apps/calibrate_command.h"
 #include "apps/capture_command.h"
 #include "apps/convert_command.h"
+#include "apps/intrinsics_command.h"
 #include "apps/replay_command.h"
 #include "apps/servo_command.h"
 #include "apps/simulate_command.h"
@@ -47,6 +48,8 @@ int ReportUsageError(const CLI::App& app, const CLI::ParseError& error, std::ost
 }
 
 int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console& console) {
+  IntrinsicsSettings intrinsics;
+  const CLI::App* intrinsics_command = AddIntrinsicsCommand(app, intrinsics);
   CalibrateSettings calibrate;
   const CLI::App* calibrate_command = AddCalibrateCommand(app, calibrate);
   AccuracySettings accuracy;
@@ -69,6 +72,7 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   } catch (const CLI::ParseError& error) {
     return ReportUsageError(app, error, console.err);
   }
+  if (intrinsics_command->parsed()) return RunIntrinsics(intrinsics, console);
   if (calibrate_command->parsed()) return RunCalibrate(calibrate, console);
   if (accuracy_command->parsed()) return RunAccuracy(accuracy, console);
   if (capture_command->parsed()) return RunCapture(capture, console);

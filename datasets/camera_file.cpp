@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "datasets/camera_formats/camera_format.h"
 #include "datasets/camera_formats/camera_readers.h"
 #include "datasets/camera_formats/plausible_camera.h"
+#include "datasets/symmetric_yaml.h"
 #include "datasets/text.h"
 #include "datasets/yaml_value.h"
 
@@ -125,14 +127,29 @@ Camera ReadCameraInfo(const YamlValue& section) {
   return camera;
 }
 
+// Rounding of a matrix that is singular may leave it a little negative.
+Eigen::MatrixXd InformationFromYaml(const YamlValue& section, const Camera& camera) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::MatrixXd information = SymmetricFromYaml(section, 4 + static_cast<size_t>(camera.lens));
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * information * scale.asDiagonal())
+          .eigenvalues();
+  if (eigenvalues[0] < -kRounding * eigenvalues[eigenvalues.size() - 1])
+    section.Fail("is no inverse covariance: it has a negative eigenvalue", "leave it as it was written");
+  return information;
+}
+
 CameraFile ReadRosCamera(const std::filesystem::path& file, const std::string& text) {
   const YamlValue root = YamlValue::Parse(file, text);
   std::vector<std::string> keys = kCameraKeys;
-  keys.emplace_back("camera_from_base");
+  keys.insert(keys.end(), {"camera_from_base", "information"});
   root.AllowKeys(keys);
   CameraFile result;
   result.camera = ReadCameraInfo(root);
   if (const auto placement = root.Find("camera_from_base")) result.camera_from_base = placement->Rigid();
+  if (const auto information = root.Find("information"))
+    result.information = InformationFromYaml(*information, result.camera);
   return result;
 }
 
@@ -185,12 +202,15 @@ std::string CameraInfoText(const CameraFile& file) {
   text += fmt::format("rectification_matrix: {}\n", MatrixText(3, 3, identity));
   text += fmt::format("projection_matrix: {}\n", MatrixText(3, 4, projection));
   if (file.camera_from_base) text += fmt::format("camera_from_base: {}\n", RigidText(*file.camera_from_base));
+  if (file.information.size() > 0)
+    text += "information:  # inverse covariance of fx fy cx cy and the coefficients, lower triangle\n" +
+            SymmetricToYaml(file.information);
   return text;
 }
 
 void WriteCamera(const std::filesystem::path& file, const Camera& camera,
                  const std::optional<Rigid3>& camera_from_base) {
-  WriteFileAtomically(file, CameraInfoText({camera, camera_from_base}));
+  WriteFileAtomically(file, CameraInfoText({camera, camera_from_base, {}}));
 }
 
 }  // namespace legible

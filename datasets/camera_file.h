@@ -16,14 +16,18 @@ class YamlValue;
 struct CameraFile {
   Camera camera;
   std::optional<Rigid3> camera_from_base;
+  // The inverse covariance of fx fy cx cy and the coefficients of the lens, px, (4 + coefficients) square,
+  // positive semi-definite; empty: how well the camera is known is not said.
+  Eigen::MatrixXd information = {};
 };
 
 // Reads any format of CameraFormat, recognised by its content; of those of other tools what their readers say
 // (datasets/camera_formats/camera_readers.h). Of ROS camera_info it reads what describes the raw image; of
-// the rest, rectification, projection, header and name are passed over. distortion_model: plumb_bob (5
-// coefficients), rational_polynomial (8), equidistant (4), none or nothing (0). Throws InputError for
-// anything else: unknown keys, skew, binning, a region of interest, a focal length that makes no sense for
-// the image size (below 0.2 or above 50 times the width or height).
+// the rest, rectification, projection, header and name are passed over. legible's own additions are
+// camera_from_base and `information`, the lower triangle of CameraFile's, row by row. distortion_model:
+// plumb_bob (5 coefficients), rational_polynomial (8), equidistant (4), none or nothing (0). Throws
+// InputError for anything else: unknown keys, skew, binning, a region of interest, a focal length that makes
+// no sense for the image size (below 0.2 or above 50 times the width or height).
 CameraFile ReadCamera(const std::filesystem::path& file);
 
 // The text of a camera.yaml, which ReadCamera takes back to the same bits. Throws std::invalid_argument if a

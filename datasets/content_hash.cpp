@@ -1,3 +1,5 @@
+#include "datasets/content_hash.h"
+
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
@@ -28,6 +30,12 @@ std::string ChecksumLine(const std::filesystem::path& file, const std::filesyste
 }
 
 }  // namespace
+
+std::string ContentHash(const std::vector<std::filesystem::path>& files) {
+  std::string lines;
+  for (const std::filesystem::path& file : files) lines += ChecksumLine(file, file.parent_path());
+  return Sha256(lines);
+}
 
 std::string ContentHash(const Session& session) {
   if (session.files.empty()) throw std::invalid_argument("the session was not read from files");

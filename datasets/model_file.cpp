@@ -9,6 +9,7 @@
 #include "datasets/camera_file.h"
 #include "datasets/camera_formats/camera_format.h"
 #include "datasets/robot_file.h"
+#include "datasets/symmetric_yaml.h"
 #include "datasets/text.h"
 #include "datasets/yaml_value.h"
 
@@ -26,44 +27,11 @@ std::vector<std::string> NamesFromYaml(const YamlValue& section) {
   return names;
 }
 
-void DemandSymmetric(const Eigen::MatrixXd& matrix, const std::vector<YamlValue>& rows) {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    if (matrix(i, i) < 0) rows[i].Fail(fmt::format("has the variance {}", matrix(i, i)), "give 0 or more");
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (matrix(i, j) == matrix(j, i)) continue;
-      rows[i].Fail(fmt::format("has {} in column {}, and row {} has {} in column {}", matrix(i, j), j + 1,
-                               j + 1, matrix(j, i), i + 1),
-                   "give a symmetric matrix or its lower triangle");
-    }
-  }
-}
-
-// Rows of the lower triangle (1, 2, … values) or whole rows (`size` values each).
-Eigen::MatrixXd SymmetricFromYaml(const YamlValue& section, size_t size) {
-  const std::vector<YamlValue> rows = section.List(size);
-  const bool is_whole = size > 1 && rows[0].List().size() == size;
-  Eigen::MatrixXd matrix(size, size);
-  for (size_t i = 0; i < size; ++i) {
-    const std::vector<double> values = rows[i].Numbers(is_whole ? size : i + 1);
-    for (size_t j = 0; j < values.size(); ++j) {
-      matrix(i, j) = values[j];
-      if (!is_whole) matrix(j, i) = values[j];
-    }
-  }
-  DemandSymmetric(matrix, rows);
-  return matrix;
-}
-
 std::string CovarianceToYaml(const std::vector<std::string>& names, const Eigen::MatrixXd& covariance) {
   std::string text =
       "covariance:  # of the parameters in this order, SI units, lower triangle\n  parameters:\n";
   for (const std::string& name : names) text += fmt::format("    - {}\n", QuotedText(name));
-  text += "  rows:\n";
-  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
-    const Eigen::VectorXd row = covariance.row(i).head(i + 1);
-    text += fmt::format("    - {}\n", ListText(row.data(), static_cast<size_t>(row.size())));
-  }
-  return text;
+  return text + "  rows:\n" + Indented(SymmetricToYaml(covariance));
 }
 
 std::string ProvenanceToYaml(const std::map<std::string, std::string>& provenance) {

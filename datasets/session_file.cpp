@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include "datasets/atomic_file.h"
 #include "datasets/camera_file.h"
+#include "datasets/image_folder.h"
 #include "datasets/input_error.h"
 #include "datasets/joint_file.h"
 #include "datasets/robot_file.h"
@@ -17,8 +17,6 @@
 
 namespace legible {
 namespace {
-
-const std::set<std::string> kImageExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm"};
 
 PriorKnowledge KnownFromYaml(const YamlValue& section) {
   PriorKnowledge known;
@@ -64,22 +62,6 @@ std::filesystem::path NamedFolder(const std::filesystem::path& folder, const Yam
                "give a path relative to the session's folder");
   }
   return named;
-}
-
-// The names of the images in a folder, sorted.
-std::set<std::string> ImagesIn(const std::filesystem::path& folder) {
-  std::error_code error;
-  const std::filesystem::directory_iterator entries(folder, error);
-  if (error)
-    throw InputError(folder, 0, "cannot be listed: " + error.message(), "give it the right to be read");
-  std::set<std::string> names;
-  for (const std::filesystem::directory_entry& entry : entries) {
-    std::string extension = entry.path().extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    if (kImageExtensions.contains(extension)) names.insert(entry.path().filename().string());
-  }
-  return names;
 }
 
 // Readings in other units than metres, or of another robot, lie further outside the range than the range is
