@@ -41,6 +41,16 @@ void DemandPlaceOfCamera(const Session& session) {
                    "give camera_from_base (a tape measure will do), or tags on the base");
 }
 
+// What a board told of one lens says nothing of another's coefficients.
+void DemandLensOfBoard(const CalibrateSettings& settings, const Session& session) {
+  if (session.known.camera_information.size() == 0 || !settings.lens || *settings.lens == session.camera.lens)
+    return;
+  throw InputError(session.files.at(2), 0,
+                   fmt::format("has the information of a board on the {} lens, and --lens says {}",
+                               LensName(session.camera.lens), LensName(*settings.lens)),
+                   "leave --lens out, or forget the board with --known camera=none");
+}
+
 InputError CannotBeUsed(const Session& session, const SessionImage& image,
                         const std::optional<GrayImage>& pixels) {
   const Camera& camera = session.camera;
@@ -73,6 +83,7 @@ CalibrationRun Load(const CalibrateSettings& settings) {
   DemandPlaceOfCamera(run.session);
   DemandSomeImage(run.session);
   run.session.known = WithSettings(run.session.known, settings);
+  DemandLensOfBoard(settings, run.session);
   try {
     run.options = ToOptions(settings, run.session);
   } catch (const std::invalid_argument& error) {

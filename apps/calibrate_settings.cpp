@@ -32,6 +32,8 @@ std::optional<Value> Find(const Names<Value>& table, const std::string& name) {
   return entry == table.end() ? std::nullopt : std::optional<Value>(entry->second);
 }
 
+constexpr char kCameraKnown[] = "camera";  // what a board told of it; can only be forgotten
+
 HeldParameters HeldBy(const CalibrateSettings& settings) {
   HeldParameters held;
   for (const std::string& name : settings.hold) held.*Find(kHoldFields, name).value() = true;
@@ -51,7 +53,11 @@ bool KnowsASize(const CalibrateSettings& settings, const PriorKnowledge& known) 
 
 std::vector<std::string> LensNames() { return NamesOf(kLenses); }
 std::vector<std::string> HoldNames() { return NamesOf(kHoldFields); }
-std::vector<std::string> KnownNames() { return NamesOf(kKnownFields); }
+std::vector<std::string> KnownNames() {
+  std::vector<std::string> names = NamesOf(kKnownFields);
+  names.emplace_back(kCameraKnown);
+  return names;
+}
 std::optional<LensModel> LensFromName(const std::string& name) { return Find(kLenses, name); }
 
 std::string LensName(LensModel lens) {
@@ -63,6 +69,10 @@ std::string LensName(LensModel lens) {
 std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
+  if (name == kCameraKnown) {
+    if (text.substr(std::min(equals, text.size() - 1) + 1) == "none") return {name, std::nullopt};
+    throw std::invalid_argument("camera can only be none: how well a board told it stands in its file");
+  }
   if (!Find(kKnownFields, name))
     throw std::invalid_argument(fmt::format("\"{}\" is none of {}", name, fmt::join(KnownNames(), ", ")));
   if (equals == std::string::npos)
@@ -79,9 +89,15 @@ std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text
   return {name, sigma};
 }
 
+bool ForgetsCamera(const std::vector<std::pair<std::string, std::optional<double>>>& known) {
+  return std::any_of(known.begin(), known.end(), [](const auto& one) { return one.first == kCameraKnown; });
+}
+
 PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettings& settings) {
   PriorKnowledge known = settings.free_legs ? PriorKnowledge{} : session;
-  for (const auto& [name, sigma] : settings.known) known.*Find(kKnownFields, name).value() = sigma;
+  if (ForgetsCamera(settings.known)) known.camera_information.resize(0, 0);
+  for (const auto& [name, sigma] : settings.known)
+    if (const auto field = Find(kKnownFields, name)) known.**field = sigma;
   return known;
 }
 

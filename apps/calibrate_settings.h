@@ -41,6 +41,9 @@ std::vector<std::string> KnownNames();
 // "radius_m=0.0005" or "radius_m=none" taken apart. Throws std::invalid_argument with a message for the user.
 std::pair<std::string, std::optional<double>> ParseKnown(const std::string& text);
 
+// Whether "camera=none" is among them: what a board told of the camera is to be left out.
+bool ForgetsCamera(const std::vector<std::pair<std::string, std::optional<double>>>& known);
+
 // What is known beforehand: what the session says (with free legs, nothing), and over it what the settings
 // say.
 PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettings& settings);

@@ -76,6 +76,7 @@ json ChecksJson(const CalibrationRun& run) {
 json OptionsJson(const CalibrationRun& run) {
   json known = json::object();
   for (const auto& [name, sigma] : NamedKnowledge(run.session.known)) known[name] = sigma;
+  if (run.session.known.camera_information.size() > 0) known["camera"] = "as a board told it";
   return {{"options given", OptionsText(run.settings)},
           {"assumption", AssumptionText(run.settings, run.session.known)},
           {"lens", LensName(run.result.guessed_camera.lens)},

@@ -64,6 +64,7 @@ Session DescriptionOf(const CaptureSettings& settings, const OpenedRig& rig,
   session.camera = camera.camera;
   session.camera_from_base = camera.camera_from_base;
   session.known = KnownOf(settings, rig);
+  if (!ForgetsCamera(settings.known)) session.known.camera_information = camera.information;
   const bool is_robot_drawn = settings.robot || rig.drawing_robot;
   const bool is_camera_drawn = settings.camera || rig.drawing_camera;
   if (!is_robot_drawn || !is_camera_drawn)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -38,8 +39,10 @@ void AddCamera(const CalibrationRun& run, const FoundParameters& found, PullList
   const PriorKnowledge& known = run.session.known;
   const Camera& camera = run.result.guessed_camera;
   const CameraParameters guess = ParametersOf(camera);
+  const Eigen::MatrixXd by_board = known.camera_information.completeOrthogonalDecomposition().pseudoInverse();
   for (int i = 0; i < kCameraParameterCount; ++i) {
-    const auto& sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
+    auto sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
+    if (i < by_board.rows()) sigma = std::sqrt(by_board(i, i));
     pulls.Add(ParameterName(camera.lens, i), guess[i], sigma, found.camera[i], found.camera_sigma[i]);
   }
 }

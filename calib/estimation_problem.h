@@ -5,10 +5,12 @@
 #include <array>
 #include <bitset>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/base_frame.h"
+#include "calib/board/board_problem.h"
 #include "calib/leg_model.h"
 #include "calib/tag_model.h"
 
@@ -40,12 +42,24 @@ struct ParameterPrior {
   double sigma = 1;
 };
 
+// The camera's parameters are known to be `value` with the inverse covariance rootᵀ root.
+struct CameraPrior {
+  CameraParameters value = CameraParameters::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, kCameraParameterCount> root;  // no rows: not known
+
+  Eigen::VectorXd Residual(const CameraParameters& camera) const { return root * (camera - value); }
+};
+
 struct EstimationProblem {
   Camera camera;  // says lens and size; what is estimated of it stands in `shared`
   SharedParameters shared;
   std::vector<PoseUnit> units;
   std::bitset<kSharedParameterCount> free;
   std::vector<ParameterPrior> priors;
+  CameraPrior camera_prior = {};
+  // Views of a board by the same camera, whitened: their poses, and the board's bend where it is estimated,
+  // are unknowns of this problem too. Its camera is the shared parameters', not its own.
+  std::optional<BoardProblem> board = {};
   std::vector<TagPlacement> tag_placements = {};  // unknowns of all images, each with what is known of it
   std::vector<TagObservation> base_tags;          // of the groups on the base
   // Drawing of the base joints, known to sigma (each coordinate) up to where the base as a whole is; 0:

@@ -96,6 +96,7 @@ LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& sol
     for (size_t i = 0; i < input.images.size(); ++i)
       if (fold_of_image[i] != fold) training.tags.back().detections.push_back(tags.detections[i]);
   }
+  training.board = input.board;
   options.progress = nullptr;
   return CalibrateLegs(training, options);
 }

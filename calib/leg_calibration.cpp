@@ -21,6 +21,26 @@ constexpr double kSteadyCommon = 1e-2;  // of the edges' shift and tilt, which s
 constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
 constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
 
+// What the corners of a board tell beyond where it stood in each view.
+int BoardFreedom(const BoardProblem& board) {
+  int freedom = -6 * static_cast<int>(board.views.size()) - (board.estimates_warp ? 2 : 0);
+  for (const ViewObservation& view : board.views)
+    for (const Eigen::Matrix2d& whitening : view.whitening_per_px)
+      if (!whitening.isZero(0)) freedom += 2;
+  return freedom;
+}
+
+// Infinite where the camera does not see the board.
+double BoardSquares(const BoardProblem& board, const CameraParameters& parameters) {
+  double squares = 0;
+  for (const ViewObservation& view : board.views) {
+    const auto errors =
+        ViewErrors(WithParameters(board.camera, parameters), board.warp, view, Vector6d::Zero());
+    squares += errors ? errors->squaredNorm() : std::numeric_limits<double>::infinity();
+  }
+  return squares;
+}
+
 // Works through rounds of least squares and re-weighting on one problem.
 class Calibrator {
  public:
@@ -94,8 +114,10 @@ class Calibrator {
   int PriorRows() const {
     // Of a prior on all platform joints six rows follow where their frame is fitted to the drawing.
     const bool on_platform = input_.known.platform_joint_m && problem_.HasPlatformGauge();
-    return static_cast<int>(problem_.priors.size()) - (on_platform ? 6 : 0) +
-           (problem_.base_joint_sigma_m > 0 ? 12 : 0) + PlacementUnknowns();  // of which each has a prior
+    return static_cast<int>(problem_.priors.size() + problem_.camera_prior.root.rows()) -
+           (on_platform ? 6 : 0) + (problem_.base_joint_sigma_m > 0 ? 12 : 0) +
+           PlacementUnknowns() +  // of which each has a prior
+           (problem_.board ? BoardFreedom(*problem_.board) : 0);
   }
   int PlacementUnknowns() const { return 6 * static_cast<int>(problem_.tag_placements.size()); }
 
@@ -236,6 +258,8 @@ double Calibrator::OtherSquares() const {
     squares += placement.residual.squaredNorm();
   for (const ParameterPrior& prior : problem_.priors)
     squares += std::pow((Parameter(problem_.shared, prior.parameter) - prior.value) / prior.sigma, 2);
+  squares += problem_.camera_prior.Residual(problem_.shared.camera).squaredNorm();
+  if (problem_.board) squares += BoardSquares(*problem_.board, problem_.shared.camera);
   if (problem_.base_joint_sigma_m > 0)
     squares += EvaluateDrawnBase(problem_, problem_.shared).residual_m.squaredNorm() /
                (problem_.base_joint_sigma_m * problem_.base_joint_sigma_m);

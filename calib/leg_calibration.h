@@ -42,6 +42,9 @@ struct LegCalibrationInput {
   PriorKnowledge known;  // about the values in `drawing` and `camera`
   std::optional<CalibrationStart> start;
   std::vector<ObservedTagGroup> tags = {};  // on the platform: only where it is rigid
+  // Views of a board by the same camera, whitened by their own calibration (SolvedProblem in
+  // calib/board/board_calibration.h), to be solved together with the legs.
+  std::optional<BoardProblem> board = {};
 };
 
 // Parameters that keep their first value.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/image_information.h"
 #include "calib/tag_weights.h"
 
 namespace legible {
@@ -62,6 +63,15 @@ double LastingShading(const LegCalibrationInput& input, const LegCalibrationOpti
   return count > 0 ? options.lasting_shading * std::sqrt(squares / count) : 0;
 }
 
+CameraPrior CameraPriorOf(const CameraParameters& value, const Eigen::MatrixXd& information) {
+  CameraPrior prior;
+  prior.value = value;
+  const Eigen::MatrixXd root = information.size() > 0 ? RootOf(information) : Eigen::MatrixXd();
+  prior.root.setZero(root.rows(), kCameraParameterCount);
+  prior.root.leftCols(root.cols()) = root;
+  return prior;
+}
+
 // Adds what is known beforehand to the problem, about the drawing's and the guessed camera's values.
 void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& options,
                EstimationProblem& problem) {
@@ -71,6 +81,8 @@ void AddPriors(const LegCalibrationInput& input, const LegCalibrationOptions& op
       problem.priors.push_back({parameter, Parameter(nominal, parameter), *sigma});
   };
   const PriorKnowledge& known = input.known;
+  problem.camera_prior = CameraPriorOf(nominal.camera, known.camera_information);
+  problem.board = input.board;
   for (int i = 0; i < 2; ++i) add(i, known.focal_length_px);
   for (int i = 2; i < 4; ++i) add(i, known.principal_point_px);
   for (int i = 4; i < kCameraParameterCount; ++i) add(i, known.distortion);

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <stdexcept>
 
+#include "calib/board/board_information.h"
+
 namespace legible {
 namespace {
 
@@ -56,6 +58,9 @@ class Information {
     AddPlacements();
     for (const ParameterPrior& prior : problem_.priors)
       sum_(prior.parameter, prior.parameter) += 1 / (prior.sigma * prior.sigma);
+    sum_.topLeftCorner<kCameraParameterCount, kCameraParameterCount>() +=
+        problem_.camera_prior.root.transpose() * problem_.camera_prior.root;
+    if (problem_.board) AddBoard(*problem_.board);
     if (problem_.base_joint_sigma_m > 0) AddDrawnBase();
     return WithoutLast(sum_, first_pose_ - kSharedParameterCount);
   }
@@ -97,6 +102,12 @@ class Information {
       AddByBaseJoints(residuals[group].d_base_joints, blocks);
       Add(blocks, sum_);
     }
+  }
+
+  void AddBoard(BoardProblem board) {
+    board.camera = WithParameters(problem_.camera, problem_.shared.camera);
+    const Eigen::MatrixXd information = InformationOf(board).information;
+    sum_.topLeftCorner(information.rows(), information.cols()) += information;
   }
 
   void AddDrawnBase() {

@@ -1,9 +1,10 @@
-// The only file that knows the solver.
+// Least squares by Ceres.
 #include <ceres/ceres.h>
 
 #include <memory>
 #include <optional>
 
+#include "calib/board/view_cost.h"
 #include "calib/estimation_problem.h"
 
 namespace legible {
@@ -97,6 +98,24 @@ class PriorCost final : public ceres::CostFunction {
  private:
   int entry_;
   double value_, sigma_;
+};
+
+// What a board has told of the camera.
+class CameraPriorCost final : public ceres::CostFunction {
+ public:
+  explicit CameraPriorCost(const CameraPrior& prior) : prior_(prior) {
+    *mutable_parameter_block_sizes() = {kCameraParameterCount};
+    set_num_residuals(static_cast<int>(prior.root.rows()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) =
+        prior_.Residual(Eigen::Map<const CameraParameters>(parameters[0]));
+    if (jacobians != nullptr) CopyRowMajor(prior_.root, jacobians[0]);
+    return true;
+  }
+
+ private:
+  const CameraPrior& prior_;
 };
 
 // Costs on three numbers of every leg at once: `rows` residuals, each leg's derivatives in columns 3 i … 3 i
@@ -233,7 +252,10 @@ class CeresProblem {
     for (const TagObservation& tag : estimation.base_tags) AddTag(std::nullopt, tag);
     for (size_t i = 0; i < estimation.tag_placements.size(); ++i)
       AddAllLegs(new PlacementCost(estimation, estimation.tag_placements[i]), {&placements_[6 * i]});
+    if (estimation.board) AddBoard(*estimation.board);
     for (const ParameterPrior& prior : estimation.priors) AddPrior(prior);
+    if (estimation.camera_prior.root.rows() > 0)
+      problem_.AddResidualBlock(new CameraPriorCost(estimation.camera_prior), nullptr, Camera());
     if (estimation.HasPlatformGauge()) AddAllLegs(new PlatformGaugeCost(estimation));
     if (estimation.base_joint_sigma_m > 0) AddAllLegs(new DrawnBaseCost(estimation));
     HoldFixedEntries(estimation, 0, kCameraParameterCount, Camera(), problem_);
@@ -248,6 +270,10 @@ class CeresProblem {
     for (size_t i = 0; i < estimation_.units.size(); ++i)
       if (problem_.HasParameterBlock(&displacements_[6 * i]))
         solver.linear_solver_ordering->AddElementToGroup(&displacements_[6 * i], 0);
+    for (Vector6d& displacement : board_displacements_)
+      solver.linear_solver_ordering->AddElementToGroup(displacement.data(), 0);
+    if (estimation_.board && estimation_.board->estimates_warp)
+      solver.linear_solver_ordering->AddElementToGroup(estimation_.board->warp.bend_m.data(), 1);
     for (double* block : SharedBlocks()) solver.linear_solver_ordering->AddElementToGroup(block, 1);
     for (size_t i = 0; i < placements_.size(); i += 6)
       solver.linear_solver_ordering->AddElementToGroup(&placements_[i], 1);
@@ -267,6 +293,10 @@ class CeresProblem {
     for (size_t i = 0; i < estimation_.tag_placements.size(); ++i) {
       Rigid3& placement = estimation_.tag_placements[i].parent_from_group;
       placement = Displaced(placement, Eigen::Map<const Vector6d>(&placements_[6 * i]));
+    }
+    for (size_t i = 0; i < board_displacements_.size(); ++i) {
+      Rigid3& pose = estimation_.board->views[i].camera_from_board;
+      pose = Displaced(pose, board_displacements_[i]);
     }
     return {summary.termination_type == ceres::CONVERGENCE, static_cast<int>(summary.iterations.size()) - 1,
             summary.final_cost};
@@ -311,6 +341,14 @@ class CeresProblem {
         new TagCost(estimation_.camera, placement, unit ? &estimation_.units[*unit] : nullptr, tag), nullptr,
         blocks);
   }
+  void AddBoard(BoardProblem& board) {
+    board_displacements_.assign(board.views.size(), Vector6d::Zero());
+    for (size_t i = 0; i < board.views.size(); ++i) {
+      std::vector<double*> blocks = {Camera(), board_displacements_[i].data()};
+      if (board.estimates_warp) blocks.push_back(board.warp.bend_m.data());
+      problem_.AddResidualBlock(new ViewCost(board, board.views[i], kCameraParameterCount), nullptr, blocks);
+    }
+  }
   void AddAllLegs(ceres::CostFunction* cost, const std::vector<double*>& others = {}) {
     std::vector<double*> blocks = SharedBlocks();
     blocks.erase(blocks.begin());
@@ -319,8 +357,9 @@ class CeresProblem {
   }
 
   EstimationProblem& estimation_;
-  std::vector<double> displacements_;  // of the units' poses, 6 each
-  std::vector<double> placements_;     // displacements of the tag groups, 6 each
+  std::vector<double> displacements_;          // of the units' poses, 6 each
+  std::vector<double> placements_;             // displacements of the tag groups, 6 each
+  std::vector<Vector6d> board_displacements_;  // of the board's poses
   ceres::Problem problem_;
 };
 

@@ -18,9 +18,17 @@
 namespace legible {
 namespace {
 
-PriorKnowledge KnownFromYaml(const YamlValue& section) {
-  PriorKnowledge known;
-  if (section.IsNull()) return known;
+// What a board has told of the camera is in camera.yaml, and would count twice.
+void DemandToldOnce(const YamlValue& section, const PriorKnowledge& known) {
+  if (known.camera_information.size() == 0) return;
+  for (const char* name : {"focal_length_px", "principal_point_px", "distortion"})
+    if (const auto value = section.Find(name))
+      value->Fail("is said, and the camera's file has the information of a board",
+                  "take it out, or `information` out of that file");
+}
+
+void AddKnown(const YamlValue& section, PriorKnowledge& known) {
+  if (section.IsNull()) return;
   std::vector<std::string> names;
   names.reserve(std::size(kKnownFields));
   for (const auto& [name, field] : kKnownFields) names.push_back(name);
@@ -34,7 +42,7 @@ PriorKnowledge KnownFromYaml(const YamlValue& section) {
           fmt::format("is {}", *(known.*field)),
           fmt::format("give {} or more; what is known exactly is held with --hold", kLeastKnownSigma));
   }
-  return known;
+  DemandToldOnce(section, known);
 }
 
 std::string KnownToYaml(const PriorKnowledge& known) {
@@ -132,11 +140,12 @@ Session ReadSession(const std::filesystem::path& folder) {
   CameraFile camera_file = ReadCamera(camera);
   session.camera = camera_file.camera;
   session.camera_from_base = camera_file.camera_from_base;
+  session.known.camera_information = camera_file.information;
   if (const auto tags = root.Find("tags")) {
     session.files.push_back(NamedFile(folder, *tags));
     session.tags = ReadTags(session.files.back());
   }
-  if (const auto known = root.Find("known")) session.known = KnownFromYaml(*known);
+  if (const auto known = root.Find("known")) AddKnown(*known, session.known);
   ReadImages(joints, images, session);
   return session;
 }
@@ -146,7 +155,8 @@ void WriteSession(const std::filesystem::path& folder, const Session& session) {
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder, 0, "cannot be created: " + error.message(), "name another folder");
   WriteRobot(folder / "robot.yaml", session.robot);
-  WriteCamera(folder / "camera.yaml", session.camera, session.camera_from_base);
+  WriteFileAtomically(folder / "camera.yaml", CameraInfoText({session.camera, session.camera_from_base,
+                                                              session.known.camera_information}));
   std::vector<JointRow> rows;
   for (const SessionImage& image : session.images) rows.push_back({image.name, image.joint_readings_m});
   WriteJoints(folder / "joints.csv", rows);

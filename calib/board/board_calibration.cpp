@@ -123,6 +123,7 @@ class CameraCalibrator {
 
   BoardCalibration FromNothing();
   BoardCalibration From(const BoardCalibration& earlier);
+  BoardProblem SolvedBy(const BoardCalibration& solution);
 
  private:
   void AddView(size_t view);
@@ -132,6 +133,8 @@ class CameraCalibrator {
   void Report(const char* stage, int iteration, double rms_px) const {
     if (options_.progress) options_.progress(stage, iteration, rms_px);
   }
+  void Place(const BoardCalibration& earlier);
+  void Whiten();
   bool Run();
   BoardSolveSummary Solve();
   bool Evaluate();
@@ -234,10 +237,14 @@ bool CameraCalibrator::Start(const StraightenedViews& straightened) {
   return true;
 }
 
-BoardSolveSummary CameraCalibrator::Solve() {
+void CameraCalibrator::Whiten() {
   for (size_t i = 0; i < problem_.views.size(); ++i)
     for (size_t k = 0; k < weights_[i].size(); ++k)
       problem_.views[i].whitening_per_px[k] = Scaled(own_whitening_[i][k], weights_[i][k], noise_factor_);
+}
+
+BoardSolveSummary CameraCalibrator::Solve() {
+  Whiten();
   BoardSolveOptions solve;
   solve.max_iterations = options_.max_iterations;
   solve.threads = options_.threads;
@@ -346,11 +353,11 @@ BoardCalibration CameraCalibrator::Result(bool settled) {
       squares += weights_[i][k] * errors_px_[i][k].squaredNorm();
       weights += weights_[i][k];
       if (weights_[i][k] == 0) ++result_.corners_left_out;
-      problem_.views[i].whitening_per_px[k] = Scaled(own_whitening_[i][k], weights_[i][k], noise_factor_);
     }
     view.rms_px = weights > 0 ? std::sqrt(squares / weights) : 0;
     result_.corners += weights;
   }
+  Whiten();
   Judge(settled);
   result_.seconds = stopwatch_.Seconds();
   return result_;
@@ -403,13 +410,25 @@ BoardCalibration CameraCalibrator::FromNothing() {
   return Result(Run());
 }
 
-BoardCalibration CameraCalibrator::From(const BoardCalibration& earlier) {
+void CameraCalibrator::Place(const BoardCalibration& earlier) {
   problem_.camera = earlier.camera;
   problem_.warp = earlier.warp;
   problem_.estimates_warp = options_.estimates_warp;
   for (size_t i = 0; i < source_.size(); ++i)
     problem_.views[i].camera_from_board = earlier.views.at(source_[i]).camera_from_board;
+}
+
+BoardCalibration CameraCalibrator::From(const BoardCalibration& earlier) {
+  Place(earlier);
   return Result(Run());
+}
+
+BoardProblem CameraCalibrator::SolvedBy(const BoardCalibration& solution) {
+  Place(solution);
+  noise_factor_ = solution.noise_factor;
+  for (size_t i = 0; i < source_.size(); ++i) weights_[i] = solution.views[source_[i]].weight;
+  Whiten();
+  return problem_;
 }
 
 }  // namespace
@@ -440,6 +459,11 @@ void BoardCalibrationOptions::Check() const {
 BoardCalibration CalibrateCamera(const BoardCalibrationInput& input, const BoardCalibrationOptions& options) {
   options.Check();
   return CameraCalibrator(input, options).FromNothing();
+}
+
+BoardProblem SolvedProblem(const BoardCalibrationInput& input, const BoardCalibration& calibration,
+                           const BoardCalibrationOptions& options) {
+  return CameraCalibrator(input, options).SolvedBy(calibration);
 }
 
 BoardCalibration RefineCamera(const BoardCalibrationInput& input, const BoardCalibration& from,

@@ -73,4 +73,9 @@ BoardCalibration CalibrateCamera(const BoardCalibrationInput& input, const Board
 BoardCalibration RefineCamera(const BoardCalibrationInput& input, const BoardCalibration& from,
                               const BoardCalibrationOptions& options);
 
+// The calibration's views that have a part, with the weights and the noise that it came to: the least-squares
+// problem of which it is the solution, for solving together with other observations of the same camera.
+BoardProblem SolvedProblem(const BoardCalibrationInput& input, const BoardCalibration& calibration,
+                           const BoardCalibrationOptions& options);
+
 }  // namespace legible

@@ -1,51 +1,12 @@
-// The only file of this folder that knows the solver.
 #include <ceres/ceres.h>
 
 #include <memory>
 
 #include "calib/board/board_problem.h"
+#include "calib/board/view_cost.h"
 
 namespace legible {
 namespace {
-
-void CopyRows(const ViewResiduals::Rows& rows, double* to) {
-  if (to != nullptr) std::copy_n(rows.data(), rows.size(), to);
-}
-
-// One view: blocks camera, pose (6) and, where it is estimated, the bend of the board (2).
-class ViewCost final : public ceres::CostFunction {
- public:
-  ViewCost(const BoardProblem& problem, const ViewObservation& view) : problem_(problem), view_(view) {
-    *mutable_parameter_block_sizes() = {problem.CameraUnknowns(), 6};
-    if (problem.estimates_warp) mutable_parameter_block_sizes()->push_back(2);
-    set_num_residuals(2 * static_cast<int>(view.pixels.size()));
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Camera camera = WithUnknowns(
-        problem_.camera, Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.CameraUnknowns()));
-    const Vector6d displacement = Eigen::Map<const Vector6d>(parameters[1]);
-    BoardWarp warp = problem_.warp;
-    if (problem_.estimates_warp) warp.bend_m = Eigen::Map<const Eigen::Vector2d>(parameters[2]);
-    Eigen::Map<Eigen::VectorXd> to(residuals, num_residuals());
-    if (jacobians == nullptr) {
-      const auto errors = ViewErrors(camera, warp, view_, displacement);
-      if (errors) to = *errors;
-      return errors.has_value();
-    }
-    const auto found = EvaluateView(camera, warp, view_, displacement);
-    if (!found) return false;
-    to = found->residual;
-    CopyRows(found->d_camera, jacobians[0]);
-    CopyRows(found->d_pose, jacobians[1]);
-    if (problem_.estimates_warp) CopyRows(found->d_warp, jacobians[2]);
-    return true;
-  }
-
- private:
-  const BoardProblem& problem_;
-  const ViewObservation& view_;
-};
 
 class ProgressCallback final : public ceres::IterationCallback {
  public:
@@ -87,7 +48,8 @@ BoardSolveSummary SolveBoard(BoardProblem& problem, const BoardSolveOptions& opt
   for (size_t i = 0; i < problem.views.size(); ++i) {
     std::vector<double*> blocks = {camera.data(), displacements[i].data()};
     if (problem.estimates_warp) blocks.push_back(bend_m.data());
-    ceres_problem.AddResidualBlock(new ViewCost(problem, problem.views[i]), nullptr, blocks);
+    ceres_problem.AddResidualBlock(new ViewCost(problem, problem.views[i], problem.CameraUnknowns()), nullptr,
+                                   blocks);
     solver.linear_solver_ordering->AddElementToGroup(displacements[i].data(), 0);
   }
   solver.linear_solver_ordering->AddElementToGroup(camera.data(), 1);

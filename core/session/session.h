@@ -24,6 +24,9 @@ struct PriorKnowledge {
   std::optional<double> focal_length_px;
   std::optional<double> principal_point_px;
   std::optional<double> distortion;  // each coefficient
+  // The inverse covariance of fx fy cx cy and the coefficients of the camera's lens, as a board told them;
+  // empty: unknown.
+  Eigen::MatrixXd camera_information = {};
 };
 // The smallest sigma that may be said of anything: what is known better is held.
 inline constexpr double kLeastKnownSigma = 1e-9;

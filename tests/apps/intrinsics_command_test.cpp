@@ -1,0 +1,257 @@
+// `legible intrinsics` on rendered images of boards and on corners that a real camera saw.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "core/vision/gray_image.h"
+#include "datasets/camera_file.h"
+#include "tests/apps/program_fixture.h"
+#include "tests/testing/random.h"
+#include "tests/testing/render_board.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// 640 x 480, a little barrel distortion.
+Camera TrueCamera() {
+  Camera camera{640, 480, 610, 608, 322, 236, LensModel::kBrownConrady, Distortion::Zero()};
+  camera.distortion.head<2>() << -0.2, 0.06;
+  return camera;
+}
+
+constexpr char kBoardYaml[] =
+    "board: tags\nfamily: tag36h11\ncolumns: 4\nrows: 3\ntag_size_m: 0.04\nspacing_m: 0.012\n";
+
+// A folder with images of a board of 4 x 3 tags in `images`, and its board.yaml, for a test to break.
+class BoardImages : public testing::Test {
+ protected:
+  static constexpr int kImages = 12;
+
+  BoardImages() {
+    folder_.Write("board.yaml", kBoardYaml);
+    for (int i = 0; i < kImages; ++i)
+      folder_.Write(fmt::format("images/{:03}.png", i), Pngs().at(static_cast<size_t>(i)));
+  }
+
+  std::filesystem::path images() const { return folder_.path() / "images"; }
+  std::filesystem::path board() const { return folder_.path() / "board.yaml"; }
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+
+  ProgramRun RunOnIt(std::vector<std::string> options = {}) const {
+    options.insert(options.begin(),
+                   {"intrinsics", images().string(), "--board", board().string(), "--out", out().string()});
+    return RunLegible(options);
+  }
+
+  void ExpectRefusal(const ProgramRun& run, int exit_code,
+                     const testing::Matcher<const std::string&>& line) const {
+    EXPECT_EQ(run.exit_code, exit_code);
+    EXPECT_THAT(run.err, line);
+    EXPECT_THAT(run.err, testing::StartsWith("legible: "));
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(std::filesystem::exists(out()));
+  }
+
+  void KeepImages(int count) const {
+    for (int i = count; i < kImages; ++i) std::filesystem::remove(images() / fmt::format("{:03}.png", i));
+  }
+
+  TemporaryFolder folder_;
+
+ private:
+  // Rendered once for all tests.
+  static const std::vector<std::string>& Pngs() {
+    static const std::vector<std::string> pngs = [] {
+      std::mt19937_64 generator(20);
+      std::normal_distribution<double> normal;
+      const Board board{"board", TagGrid("tag36h11", 4, 3, 0.04, 0.012), std::nullopt};
+      std::vector<std::string> list;
+      for (int i = 0; i < kImages; ++i) {
+        const Rigid3 pose = BoardPose(i % 4 == 0 ? 0.05 : 0.6, 2.4 * i, 0.3 * normal(generator),
+                                      {0.05 * (i % 3 - 1), 0.04 * (i % 5 - 2), 0.27 + 0.01 * (i % 4)});
+        list.push_back(EncodePng(WithNoise(RenderBoard(board, TrueCamera(), pose), 2, generator)));
+      }
+      return list;
+    }();
+    return pngs;
+  }
+};
+
+json ReadJson(const std::filesystem::path& file) { return json::parse(Bytes(file)); }
+
+TEST_F(BoardImages, LeadToTheTrueCameraWithinItsOwnUncertainty) {
+  const ProgramRun run = RunOnIt();
+  ASSERT_EQ(run.exit_code, kExitSuccess) << run.err;
+  const json found = ReadJson(out() / "intrinsics.json");
+  EXPECT_EQ(found["status"], "converged");
+  const json& camera = found["camera"];
+  const Camera truth = TrueCamera();
+  EXPECT_NEAR(camera["fx"], truth.fx_px, 4 * camera["sigma"]["fx"].get<double>());
+  EXPECT_NEAR(camera["fy"], truth.fy_px, 4 * camera["sigma"]["fy"].get<double>());
+  EXPECT_NEAR(camera["cx"], truth.cx_px, 4 * camera["sigma"]["cx"].get<double>());
+  EXPECT_NEAR(camera["cy"], truth.cy_px, 4 * camera["sigma"]["cy"].get<double>());
+  EXPECT_LT(camera["sigma"]["fx"].get<double>(), 1.0);
+  EXPECT_LT(found["noise_px"].get<double>(), 0.05);
+  EXPECT_FALSE(found["cross_validation"]["misfit"].get<bool>()) << found["cross_validation"]["sentence"];
+  EXPECT_EQ(found["views_used"], kImages);
+}
+
+TEST_F(BoardImages, GiveACameraFileThatKeepsHowWellItIsKnown) {
+  ASSERT_EQ(RunOnIt().exit_code, kExitSuccess);
+  const CameraFile file = ReadCamera(out() / "camera.yaml");
+  const json found = ReadJson(out() / "intrinsics.json");
+  EXPECT_EQ(file.camera.fx_px, found["camera"]["fx"].get<double>());
+  ASSERT_EQ(file.information.rows(), 9);
+  const Eigen::MatrixXd covariance = file.information.inverse();
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), found["camera"]["sigma"]["fx"].get<double>(), 1e-6);
+}
+
+TEST_F(BoardImages, PrintOneDocumentAsJson) {
+  const ProgramRun run = RunOnIt({"--format", "json"});
+  ASSERT_EQ(run.exit_code, kExitSuccess) << run.err;
+  EXPECT_EQ(json::parse(run.out), ReadJson(out() / "intrinsics.json"));
+}
+
+TEST_F(BoardImages, SayForPeopleWhatWasFoundAndWhatToAddNext) {
+  const ProgramRun run = RunOnIt();
+  EXPECT_THAT(run.out, AllOf(HasSubstr("12 views"), HasSubstr("12 tags of tag36h11"), HasSubstr("fx"),
+                             HasSubstr("the lens model fits"), HasSubstr("add a view of the board")));
+}
+
+TEST_F(BoardImages, AreDrawnIntoTheReport) {
+  ASSERT_EQ(RunOnIt().exit_code, kExitSuccess);
+  const std::string page = Bytes(out() / "report.html");
+  EXPECT_THAT(
+      page, AllOf(HasSubstr("data:image/jpeg;base64"), HasSubstr("011.png"), HasSubstr("left_out_corners")));
+}
+
+// --- What is refused: a cause, exit code 2 or 1, nothing written. ----------------------------------------
+
+TEST_F(BoardImages, RefuseToBeOne) {
+  KeepImages(1);
+  ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("1 view of the board cannot determine a camera"));
+}
+
+TEST_F(BoardImages, RefuseToBeTheSameTenTimes) {
+  for (int i = 1; i < kImages; ++i) {
+    std::filesystem::remove(images() / fmt::format("{:03}.png", i));
+    if (i < 10) std::filesystem::copy(images() / "000.png", images() / fmt::format("{:03}.png", i));
+  }
+  ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("10 views show the board in the same place"));
+}
+
+TEST_F(BoardImages, RefuseABoardWithARowTooFew) {
+  folder_.Write("board.yaml", Replaced(kBoardYaml, "rows: 3", "rows: 2"));
+  ExpectRefusal(RunOnIt(), kExitBadInput,
+                AllOf(HasSubstr("board.yaml"), HasSubstr("tag 11"), HasSubstr("mend rows")));
+}
+
+TEST_F(BoardImages, RefuseABoardWithARowTooMany) {
+  folder_.Write("board.yaml", Replaced(kBoardYaml, "rows: 3", "rows: 4"));
+  ExpectRefusal(RunOnIt(), kExitBadInput,
+                AllOf(HasSubstr("12, 13, 14, 15"), HasSubstr("no image shows any")));
+}
+
+TEST_F(BoardImages, RefuseABoardWithWrongColumnsAndSayWhichTheyShow) {
+  folder_.Write("board.yaml",
+                Replaced(Replaced(kBoardYaml, "columns: 4", "columns: 3"), "rows: 3", "rows: 4"));
+  ExpectRefusal(RunOnIt(), kExitBadInput, AllOf(HasSubstr("board.yaml"), HasSubstr("as in 4 columns")));
+}
+
+TEST_F(BoardImages, RefuseAWrongTagSizeAndSayByWhichFactor) {
+  folder_.Write("board.yaml", Replaced(Replaced(kBoardYaml, "0.04", "0.03"), "0.012", "0.022"));
+  ExpectRefusal(RunOnIt(), kExitBadInput, AllOf(HasSubstr("board.yaml"), HasSubstr("1.33 times as large")));
+}
+
+TEST_F(BoardImages, RefuseAHopelessGuess) {
+  ExpectRefusal(RunOnIt({"--guess", "100"}), kExitBadInput,
+                AllOf(HasSubstr("focal length of 100 px"), HasSubstr("leave --guess out")));
+}
+
+TEST_F(BoardImages, RefuseTwoSizes) {
+  GrayImage small{320, 240, std::vector<std::uint8_t>(320 * 240, 100)};
+  folder_.Write("images/005.png", EncodePng(small));
+  ExpectRefusal(RunOnIt(), kExitBadInput,
+                AllOf(HasSubstr("005.png: is 320 x 240 px"), HasSubstr("is 640 x 480 px")));
+}
+
+TEST_F(BoardImages, RefuseATruncatedOne) {
+  const std::string bytes = Bytes(images() / "003.png");
+  folder_.Write("images/003.png", bytes.substr(0, bytes.size() / 2));
+  ExpectRefusal(RunOnIt(), kExitBadInput, HasSubstr("003.png: is not an image, or damaged"));
+}
+
+TEST_F(BoardImages, RefuseABoardThatNobodySees) {
+  folder_.Write("board.yaml", Replaced(kBoardYaml, "tag36h11", "tag25h9"));
+  ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("no view shows"));
+}
+
+TEST_F(BoardImages, RefuseAChessboardThatNobodySees) {
+  folder_.Write("board.yaml", "board: chessboard\ncolumns: 9\nrows: 6\nsquare_m: 0.02\n");
+  ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("no view shows"));
+}
+
+TEST_F(BoardImages, RefuseANameThatIsNotThere) {
+  ExpectRefusal(
+      RunLegible({"intrinsics", "nowhere.png", "--board", board().string(), "--out", out().string()}),
+      kExitBadInput, HasSubstr("nowhere.png: is not there"));
+}
+
+// --- Corners from a file: a real, very wide lens. --------------------------------------------------------
+
+class WideLens : public testing::Test {
+ protected:
+  json RunOnIt(const std::vector<std::string>& options) const {
+    const std::filesystem::path data = std::filesystem::path(LEGIBLE_SOURCE_DIR) / "datasets/wide-lens";
+    std::vector<std::string> arguments = {"intrinsics",
+                                          "--corners",
+                                          (data / "corners.csv").string(),
+                                          "--image-size",
+                                          "6016x4016",
+                                          "--board",
+                                          (data / "board.yaml").string(),
+                                          "--out",
+                                          (folder_.path() / "out").string(),
+                                          "--format",
+                                          "json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = RunLegible(arguments);
+    EXPECT_EQ(run.exit_code, kExitSuccess) << run.err;
+    return json::parse(run.out);
+  }
+  TemporaryFolder folder_;
+};
+
+// mrcal and OpenCV find fx = 2070.484 px and 1.391 px a point, from a guess.
+TEST_F(WideLens, LeadsToThePublishedCameraFromNoGuess) {
+  const json found = RunOnIt({"--lens", "rational", "--all-corners"});
+  EXPECT_NEAR(found["camera"]["fx"], 2070.484, 0.001);
+  EXPECT_NEAR(found["rms_px"], 1.391, 0.0005);
+  EXPECT_EQ(found["corners_used"], 18600);
+}
+
+// mrcal's optimum of the same problem: fx = 2251.179, 27.093 px.
+TEST_F(WideLens, IsReportedNotToBeOneOfFiveCoefficients) {
+  const json found = RunOnIt({"--lens", "brown-conrady", "--all-corners"});
+  EXPECT_NEAR(found["camera"]["fx"], 2251.18, 0.01);
+  EXPECT_NEAR(found["rms_px"], 27.0933, 0.001);
+  EXPECT_TRUE(found["cross_validation"]["misfit"].get<bool>());
+  EXPECT_THAT(found["cross_validation"]["sentence"].get<std::string>(),
+              HasSubstr("the lens model does not fit"));
+}
+
+TEST_F(WideLens, LeavesNoCornerOutUncounted) {
+  const json found = RunOnIt({"--lens", "rational"});
+  EXPECT_GT(found["corners_left_out"].get<int>(), 0);
+  EXPECT_EQ(found["corners_left_out"].get<int>() + found["corners_used"].get<int>(),
+            18600 - 3);  // 3 are marked
+  EXPECT_NEAR(found["camera"]["fx"], 2070.484, 3);
+}
+
+}  // namespace
+}  // namespace legible
