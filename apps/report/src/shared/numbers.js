@@ -19,6 +19,14 @@ export const withUnit = (element, unit) =>
     ? html("span", null, element, html("span", { class: "unit" }, ` ${unit}`))
     : element;
 
+// A number of a document in a unit, to which `scale` takes it from SI; path: where in the document it stands.
+export function measured(value, { unit, scale }, path, text = null) {
+  if (!isNumber(value)) return MISSING;
+  const shown = Number((scale * value).toPrecision(12));
+  const attributes = { value: String(shown), "data-value": path, "data-unit": unit };
+  return withUnit(html("data", attributes, text ?? significant(shown)), unit);
+}
+
 // {value, half_width} -> "0.0512 ± 0.0003"; the half width with two digits.
 export function estimate(found) {
   if (!isNumber(found?.value)) return MISSING;

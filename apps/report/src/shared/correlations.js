@@ -1,9 +1,9 @@
 // The correlations of the parameters as a map, and the strongest pairs as a table.
 import * as Plot from "@observablehq/plot";
-import { append, figure, html, muted, table } from "../shared/dom.js";
-import { fixed, isNumber } from "../shared/format.js";
-import { describeParameter, parameterTitle } from "../shared/parameter_names.js";
-import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
+import { append, figure, html, muted, table } from "./dom.js";
+import { fixed, isNumber } from "./format.js";
+import { describeParameter, parameterTitle } from "./parameter_names.js";
+import { COLOR, TIP, plot, responsive } from "./plots.js";
 
 const STRONGEST_PAIRS = 12;
 
