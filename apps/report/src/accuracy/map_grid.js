@@ -32,10 +32,7 @@ export function colorScale(cells) {
   if (known.length === 0) return null;
   const fine = known.filter(({ state }) => state === STATE.fine);
   const values = (fine.length >= SHARE_FOR_ITSELF * known.length ? fine : known).map(({ value }) => value);
-  return colorScaleOf(
-    values,
-    known.map(({ value }) => value),
-  );
+  return colorScaleOf(values, { all: known.map(({ value }) => value) });
 }
 
 // Rows of equal state joined into strips: [{x1, x2, y1, y2}], so that a hatch has no seams from cell to cell.

@@ -66,7 +66,13 @@ function imagePlot(images, rms, width) {
     marginLeft: 52,
     marginBottom: 56,
     marginTop: 26,
-    x: { ...nameAxis(images.map(({ name }) => name)), label: null },
+    x: {
+      ...nameAxis(
+        images.map(({ name }) => name),
+        width,
+      ),
+      label: null,
+    },
     y: { label: "rms, px", zero: true, grid: true, nice: true, labelArrow: false },
     marks: [
       isNumber(rms) ? Plot.ruleY([rms], { stroke: COLOR.muted, strokeDasharray: "4 3" }) : null,

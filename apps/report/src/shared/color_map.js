@@ -8,13 +8,15 @@ const WIDE_RATIO = 30;
 // What few places have must not take the colours from the rest.
 const SHARE_IN_COLOR = 0.98;
 const CONTOURS = 9;
+const MOST_TICKS = 5;
+const STEPS = [[1, 1.5, 2, 3, 4, 5, 7], [1, 2, 3, 5], [1, 2, 5], [1]];
 
-// {type, domain, clamped}: the scale of the colours for the values (at least one), of which `all` may have more that are
-// shown with the same colours.
-export function colorScaleOf(values, all = values) {
+// {type, domain, clamped}: the scale of the colours for the values (at least one); `all`: with those that are shown with
+// the same colours.
+export function colorScaleOf(values, { all = values, wideRatio = WIDE_RATIO } = {}) {
   const least = min(values);
   const top = Math.max(quantile(values, SHARE_IN_COLOR), least);
-  const wide = least > 0 && top / least > WIDE_RATIO;
+  const wide = least > 0 && top / least > wideRatio;
   const end = top > least ? top : least + (Math.abs(least) || 1);
   return {
     type: wide ? "log" : "linear",
@@ -30,13 +32,25 @@ export const colorOptions = ({ type, domain }) => ({
   clamp: true,
 });
 
+// Round numbers within the domain, few enough to stand beside each other.
+export function logTicks([least, most]) {
+  const first = Math.floor(Math.log10(least));
+  const powers = Array.from({ length: Math.ceil(Math.log10(most)) - first + 1 }, (_, i) => 10 ** (first + i));
+  const all = STEPS.map((steps) =>
+    powers
+      .flatMap((power) => steps.map((step) => step * power))
+      .filter((value) => value >= least && value <= most),
+  );
+  return all.find((ticks) => ticks.length <= MOST_TICKS) ?? all.at(-1);
+}
+
 export const colorRamp = (label, scale) =>
   Plot.legend({
     color: { ...colorOptions(scale), label },
     width: 280,
     marginLeft: 16,
     marginRight: 16,
-    ticks: 4,
+    ticks: scale.type === "log" ? logTicks(scale.domain) : 4,
     tickFormat: tick,
     style: { fontSize: "12px", fontFamily: "inherit", background: "none", overflow: "visible" },
   });

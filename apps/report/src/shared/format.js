@@ -42,7 +42,9 @@ export function tick(value) {
 export const superscript = (exponent) =>
   [...String(exponent)].map((character) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[character] ?? "⁻").join("");
 
-export const withUnit = (text, unit) => (text === MISSING || !unit ? text : `${text} ${unit}`);
+// What stands between a number and its unit, with the unit.
+export const afterNumber = (unit) => (unit === "°" ? unit : ` ${unit}`);
+export const withUnit = (text, unit) => (text === MISSING || !unit ? text : text + afterNumber(unit));
 
 // "650.12 ± 0.04 px", the digits decided by sigma.
 export function plusMinus(value, sigma, unit) {

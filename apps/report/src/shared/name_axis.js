@@ -1,9 +1,10 @@
 // An axis of images by their names, however many there are.
 
-const LABELLED = 60;
+const LABEL_PX = 17;
 
-export function nameAxis(names, type = "point") {
-  const step = Math.ceil(names.length / LABELLED);
+// width: of the plot, px
+export function nameAxis(names, width, type = "point") {
+  const step = Math.ceil((names.length * LABEL_PX) / width);
   return {
     type,
     domain: names,
