@@ -34,5 +34,6 @@ std::string Render(const PageTemplate& page, const nlohmann::json& data) {
 std::string RenderCalibrationPage(const nlohmann::json& data) { return Render(CalibrationPage(), data); }
 std::string RenderAccuracyPage(const nlohmann::json& data) { return Render(AccuracyPage(), data); }
 std::string RenderServoPage(const nlohmann::json& data) { return Render(ServoPage(), data); }
+std::string RenderIntrinsicsPage(const nlohmann::json& data) { return Render(IntrinsicsPage(), data); }
 
 }  // namespace legible

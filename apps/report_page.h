@@ -60,4 +60,33 @@ std::string RenderAccuracyPage(const nlohmann::json& data);
 // the goal's pose is not known, to the last pose.
 std::string RenderServoPage(const nlohmann::json& data);
 
+// The report of `legible intrinsics` with `data` embedded as JSON; a part without data is left out. SI units
+// and px; pixel (0, 0) is the centre of the top-left pixel. Grids are cells of equal size over the image, row
+// by row; null where the lens model does not reach. Its members, all optional:
+//   title, program_version, board   texts; board describes it
+//   intrinsics   what intrinsics.json holds: status, message, warnings, camera {width_px, height_px, lens,
+//              fx, fy, cx, cy, distortion, sigma}, rms_px, noise_px, neighbour_noise_px, views_used,
+//              views_left_out [{name, why}], corners_used, corners_left_out, corners_weighed_down,
+//              board_warp_m [x, y], uncertainty [{distance_m (null: infinitely far), rms_px, worst_px}],
+//              cross_validation {why_not, difference_rms_px, expected_rms_px, ratio, ratio_limit, misfit,
+//              sentence}, coverage {share, largest_tilt_rad, sentence}, next_view {sentence, centre_px,
+//              tilt_rad, tilt_direction_rad, distance_m, now_px, then_px}, time_s (a number, or
+//              {stage: s, ..., total}), iterations, options, content_hash
+//   views      [{name (each its own), width, height, picture (a data: address), left_out (why), rms_px,
+//              tilt_rad, tilt_direction_rad (0: the board's right side is farther away; clockwise in the
+//              image), distance_m, corners, left_out_corners, unused}]:
+//              corners [[x, y, residual_x, residual_y, weight]]: residual: predicted less observed; weight 0:
+//              an outlier; nulls: took no part
+//              left_out_corners [{x, y, what, why}]: what has a place in the image and never came to the
+//              estimate; none of these is among corners
+//              unused [texts]: what was left out and has no place in the image
+//   maps       {columns, rows, maps: [{distance_m (null: infinitely far), sigma_px}]}
+//   halves     {columns, rows, distance_m, difference_px [[dx, dy]], expected_px: the rms length that noise
+//              would give it; without, cross_validation.expected_rms_px everywhere}
+//   coverage   {columns, rows, corners [counts]}
+//   next_view  {outline_px [[x, y]]}: the proposed board in the image, a closed polygon
+//   correlations   {names, matrix}; a name: camera.fx_px, ..., camera.k1, ..., board_warp_m.x, board_warp_m.y
+//   options    {name: value}
+std::string RenderIntrinsicsPage(const nlohmann::json& data);
+
 }  // namespace legible

@@ -13,5 +13,6 @@ struct PageTemplate {
 PageTemplate CalibrationPage();
 PageTemplate AccuracyPage();
 PageTemplate ServoPage();
+PageTemplate IntrinsicsPage();
 
 }  // namespace legible

@@ -106,13 +106,19 @@ INSTANTIATE_TEST_SUITE_P(
              RenderServoPage,
              {"Verdict", "Errors", "Speeds and readings of the legs", "Conditioning",
               "Gain, and what slowed the robot", "The path in space",
-              "Pictures with current and desired edges", "Computing times", "Settings and provenance"}}),
+              "Pictures with current and desired edges", "Computing times", "Settings and provenance"}},
+        Page{"Intrinsics",
+             RenderIntrinsicsPage,
+             {"Verdict", "Parameters", "Uncertainty over the image",
+              "Cross-validation: two halves of the views", "Residuals", "Pictures with found corners",
+              "Coverage, and the view to add next", "What was left out", "Options, provenance, time"}}),
     [](const auto& page) { return page.param.name; });
 
 TEST(ReportPages, AreDifferentPages) {
   EXPECT_THAT(RenderCalibrationPage(json::object()), HasSubstr("<title>Calibration report</title>"));
   EXPECT_THAT(RenderAccuracyPage(json::object()), HasSubstr("<title>Accuracy report</title>"));
   EXPECT_THAT(RenderServoPage(json::object()), HasSubstr("<title>Servo report</title>"));
+  EXPECT_THAT(RenderIntrinsicsPage(json::object()), HasSubstr("<title>Intrinsics report</title>"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // servo_data.json is what it writes for 60 cycles. The run is simulated here, simply: an edge-based law (all edges of a
 // hexapod that one camera sees, derivatives by differences) with a speed limit, a leg that hides for a while, and noise.
 // "stopped" is a run that ends in its second cycle, of which little is known.
-import { deflateSync } from "node:zlib";
 import {
   cross,
   dot,
@@ -15,7 +14,9 @@ import {
   rotationAngle,
   singularValues,
   times,
-} from "./servo_geometry.mjs";
+} from "./example_geometry.mjs";
+import { png } from "./example_pictures.mjs";
+import { Random } from "./example_random.mjs";
 
 const IS_STOPPED = process.argv[2] === "stopped";
 const CYCLES = IS_STOPPED ? 2 : Number(process.argv[2] ?? 60);
@@ -68,12 +69,7 @@ const GOAL = moved(HOME, [0.025, -0.02, 0.045, -0.05, 0.06, -0.1]);
 // Of the true robot from where its readings say that it is, at the goal and growing with the distance from it.
 const MODEL_ERROR = [0.0004, -0.0003, 0.0002, 0.0006, 0.0004, -0.0008];
 
-let seed = 1;
-function uniform() {
-  seed = (1103515245 * seed + 12345) % 2147483648;
-  return (seed + 0.5) / 2147483648;
-}
-const normal = () => Math.sqrt(-2 * Math.log(uniform())) * Math.cos(2 * Math.PI * uniform());
+const random = new Random(1);
 
 const legEnds = (pose) => JOINTS.map(([base, platform]) => [base, placed(pose, platform)]);
 const legLengths = (pose) => legEnds(pose).map(([a, b]) => norm(plus(b, a, -1)));
@@ -120,7 +116,7 @@ function trueOf(pose) {
 function step(pose, cycle) {
   const edges = edgesAt(pose);
   const seen = edges.map((edge) => isSeen(edge, cycle));
-  const all = residuals(pose).map((value) => value + NOISE_PX * normal());
+  const all = residuals(pose).map((value) => value + NOISE_PX * random.normal());
   const rows = jacobian(residuals, pose);
   const used = all.map((_, index) => index).filter((index) => seen[Math.floor(index / 2)]);
   const toGoal = leastSquares(
@@ -198,8 +194,8 @@ function cyclesOf(steps) {
     speed_factor: steps.map(({ factor }) => factor),
     singularity_factor: steps.map(({ singularity }) => singularity),
     edges: steps.map(({ seen }) => seen.filter(Boolean).length),
-    look_s: steps.map(() => 0.0021 * Math.exp(0.12 * normal())),
-    law_s: steps.map(() => 9e-6 * Math.exp(0.2 * normal())),
+    look_s: steps.map(() => 0.0021 * Math.exp(0.12 * random.normal())),
+    law_s: steps.map(() => 9e-6 * Math.exp(0.2 * random.normal())),
     limits: steps.map(limitsOf),
     joint_speeds_m_per_s: steps.map(({ speeds }) => speeds),
     joint_readings_m: steps.map(({ pose }) => legLengths(pose)),
@@ -270,11 +266,7 @@ function pictureOf(label, cycle, { pose, edges, seen }, image) {
 function drawing(pose) {
   const [width, height] = [CAMERA.width / 8, CAMERA.height / 8];
   const legs = [0, 2, 4, 6, 8, 10].map((index) => edgesAt(pose).slice(index, index + 2));
-  const rows = Array.from({ length: height }, (_, y) => [
-    0,
-    ...Array.from({ length: width }, (__, x) => brightness(legs, [8 * x + 3.5, 8 * y + 3.5])),
-  ]);
-  return png(width, height, Buffer.from(rows.flat()));
+  return png(width, height, (x, y) => brightness(legs, [8 * x + 3.5, 8 * y + 3.5]));
 }
 
 function brightness(legs, point) {
@@ -287,38 +279,6 @@ function brightness(legs, point) {
       return Math.round(90 + (110 * inside) / (inside + other));
   }
   return 40;
-}
-
-function png(width, height, rows) {
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(width, 0);
-  header.writeUInt32BE(height, 4);
-  header.set([8, 0, 0, 0, 0], 8); // 8 bits, grey
-  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
-  const file = [
-    signature,
-    chunk("IHDR", header),
-    chunk("IDAT", deflateSync(rows)),
-    chunk("IEND", Buffer.alloc(0)),
-  ];
-  return `data:image/png;base64,${Buffer.concat(file).toString("base64")}`;
-}
-
-function chunk(name, content) {
-  const body = Buffer.concat([Buffer.from(name, "latin1"), content]);
-  const [length, check] = [Buffer.alloc(4), Buffer.alloc(4)];
-  length.writeUInt32BE(content.length);
-  check.writeUInt32BE(crc32(body));
-  return Buffer.concat([length, body, check]);
-}
-
-function crc32(bytes) {
-  let rest = 0xffffffff;
-  for (const byte of bytes) {
-    rest ^= byte;
-    for (let bit = 0; bit < 8; ++bit) rest = (rest >>> 1) ^ (rest & 1 ? 0xedb88320 : 0);
-  }
-  return (rest ^ 0xffffffff) >>> 0;
 }
 
 const SETTINGS = {

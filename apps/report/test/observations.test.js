@@ -1,16 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { orderedParameters } from "../src/calibration/correlations.js";
-import { groupedByReason } from "../src/calibration/left_out.js";
 import {
   leftOutEdges,
   meanAlong,
   residualLimit,
-  thinned,
   usedEdges,
   usedSamples,
 } from "../src/calibration/observations.js";
 import { outwardNormal } from "../src/calibration/overlay.js";
+import { orderedParameters } from "../src/shared/correlations.js";
+import { groupedByReason } from "../src/shared/reasons.js";
+import { thinned } from "../src/shared/statistics.js";
 
 const DATA = {
   images: [

@@ -48,6 +48,31 @@ export async function checkSectionsDrawn(page) {
   for (const id of hidden) assert.equal(await page.locator(`nav a[href="#${id}"]`).isVisible(), false, id);
 }
 
+// Of each drawing the words that stand upright: none over another.
+export async function checkLabelsApart(page) {
+  const overlaps = await page.evaluate(() => {
+    const upright = (text) => !/rotate\((?!0)/.test(text.getAttribute("transform") ?? "");
+    const boxes = (drawing) =>
+      [...drawing.querySelectorAll("text")]
+        .filter((text) => upright(text) && text.textContent && !text.closest('[aria-label="tip"]'))
+        .map((text) => ({ text: text.textContent, ...text.getBoundingClientRect().toJSON() }))
+        .filter(({ width, height }) => width > 0 && height > 0);
+    const shared = (a, b) =>
+      Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
+      Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
+    return [...document.querySelectorAll("main svg")].flatMap((drawing) => {
+      const all = boxes(drawing);
+      return all.flatMap((a, index) =>
+        all
+          .slice(index + 1)
+          .filter((b) => shared(a, b) > 0.1 * Math.min(a.width * a.height, b.width * b.height))
+          .map((b) => `“${a.text}” and “${b.text}” of ${drawing.closest("section").id}`),
+      );
+    });
+  });
+  assert.deepEqual(overlaps, [], "words overlap");
+}
+
 async function checkOverflow(page, width) {
   const [content, room] = await page.evaluate(() => [
     document.documentElement.scrollWidth,

@@ -6,11 +6,11 @@ import { nearestEnd } from "../src/servo/legs.js";
 import { deviations, straightWay } from "../src/servo/path_geometry.js";
 import { viewOf } from "../src/servo/path_view.js";
 import { shortTime, unitOf } from "../src/servo/quantities.js";
-import { leavesOf } from "../src/servo/settings.js";
 import { limitSpans, mergedSpans, periodOf } from "../src/servo/spans.js";
 import { sparse, thinned } from "../src/servo/thinning.js";
 import { logDomain, logTicks } from "../src/servo/time_plot.js";
 import { barsOf, quantile } from "../src/servo/times.js";
+import { leavesOf } from "../src/shared/document.js";
 import { START, screenAxes } from "../src/shared/turntable.js";
 
 const range = (count) => Array.from({ length: count }, (_, index) => index);

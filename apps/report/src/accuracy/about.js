@@ -1,9 +1,8 @@
 // How to read the numbers, and where they come from.
 import { append, definitions, html } from "../shared/dom.js";
 import { MISSING, sentence } from "../shared/format.js";
+import { spaced } from "../shared/option_words.js";
 import { pretty } from "./units.js";
-
-const spaced = (name) => name.replaceAll("_", " ");
 
 export function renderAbout(section, { data }) {
   const document = data.document ?? {};

@@ -1,5 +1,5 @@
 // Fills the page from its embedded data; parts that depend on the pose are filled again when another one is chosen.
-import { embeddedData, renderHeader, renderSection } from "../shared/page.js";
+import { embeddedData, renderHeader, renderSection, showSection } from "../shared/page.js";
 import { renderAbout } from "./about.js";
 import { renderAllPoses } from "./all_poses.js";
 import { poseChooser } from "./chooser.js";
@@ -62,10 +62,7 @@ class Page {
       comparison: hasComparison(this.data),
       workspace: found?.workspace,
     };
-    for (const [id, there] of Object.entries(present)) {
-      byId(id).hidden = !there;
-      document.querySelector(`nav a[href="#${id}"]`).hidden = !there;
-    }
+    for (const [id, there] of Object.entries(present)) showSection(id, Boolean(there));
   }
 
   renderOnce(id, render) {

@@ -1,12 +1,8 @@
 // A slice of the workspace as a grid of cells. No page elements here.
-import { min, quantile } from "d3";
+import { colorScaleOf } from "../shared/color_map.js";
 import { isNumber } from "../shared/format.js";
 
 export const STATE = { fine: 0, outsideJointRanges: 1, singular: 2 };
-// Beyond this ratio of largest to smallest, equal steps of colour mean equal ratios.
-const WIDE_RATIO = 30;
-// What few cells near a singularity have must not take the colours from the rest.
-const SHARE_IN_COLOR = 0.98;
 const SHARE_FOR_ITSELF = 0.05;
 
 // Edges of the cells around equally spaced values: [first edge, last edge].
@@ -36,15 +32,7 @@ export function colorScale(cells) {
   if (known.length === 0) return null;
   const fine = known.filter(({ state }) => state === STATE.fine);
   const values = (fine.length >= SHARE_FOR_ITSELF * known.length ? fine : known).map(({ value }) => value);
-  const least = min(values);
-  const top = Math.max(quantile(values, SHARE_IN_COLOR), least);
-  const wide = least > 0 && top / least > WIDE_RATIO;
-  const end = top > least ? top : least + (Math.abs(least) || 1);
-  return {
-    type: wide ? "log" : "linear",
-    domain: [least, end],
-    clamped: known.some(({ value }) => value > end),
-  };
+  return colorScaleOf(values, { all: known.map(({ value }) => value) });
 }
 
 // Rows of equal state joined into strips: [{x1, x2, y1, y2}], so that a hatch has no seams from cell to cell.

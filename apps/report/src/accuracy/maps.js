@@ -1,15 +1,15 @@
 // Maps of errors and indices over a slice of the workspace.
 import * as Plot from "@observablehq/plot";
-import { interpolateViridis, max } from "d3";
+import { max } from "d3";
+import { colorOptions, colorRamp, contours } from "../shared/color_map.js";
 import { append, figure, html, svg } from "../shared/dom.js";
-import { isNumber, sentence, significant, tick, withUnit } from "../shared/format.js";
+import { isNumber, sentence, significant, withUnit } from "../shared/format.js";
 import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
 import { STATE, cellsOf, colorScale, edgesOf, stripsOf } from "./map_grid.js";
 import { pretty } from "./units.js";
 
 const WIDEST = 700;
 const MARGIN = { left: 56, right: 14, top: 26, bottom: 42 };
-const CONTOURS = 9;
 
 export const hasMaps = (maps) =>
   Boolean(maps?.quantities?.length && maps.x?.values?.length && maps.y?.values?.length);
@@ -48,18 +48,8 @@ function mapFigure(maps, quantity) {
   );
 }
 
-const colorOptions = ({ type, domain }) => ({ type, domain, interpolate: interpolateViridis, clamp: true });
-
 function legend({ label, key, unit }, scale, states) {
-  const ramp = Plot.legend({
-    color: { ...colorOptions(scale), label: withUnit(`${label ?? key},`, pretty(unit)).replace(/,$/, "") },
-    width: 280,
-    marginLeft: 16,
-    marginRight: 16,
-    ticks: 4,
-    tickFormat: tick,
-    style: { fontSize: "12px", fontFamily: "inherit", background: "none", overflow: "visible" },
-  });
+  const ramp = colorRamp(withUnit(`${label ?? key},`, pretty(unit)).replace(/,$/, ""), scale);
   const entry = (state, name, text) =>
     states.has(state) && html("span", null, html("span", { class: `map-key ${name}` }), text);
   return html(
@@ -111,7 +101,7 @@ function map(maps, quantity, cells, scale, width) {
         cells.map(({ value }) => value),
         { ...grid, ...frame, imageRendering: "pixelated" },
       ),
-      contours(cells, scale, grid, frame),
+      contours(closedIn(cells), scale, grid, frame),
       Plot.rect([frame], { x1: "x1", x2: "x2", y1: "y1", y2: "y2", stroke: COLOR.page, strokeWidth: 2 }),
       stripMark(strips(STATE.outsideJointRanges), "url(#outside)"),
       stripMark(strips(STATE.singular), "url(#nowhere)"),
@@ -125,30 +115,14 @@ function map(maps, quantity, cells, scale, width) {
   return drawing;
 }
 
+// Where nothing is known the robot is singular or cannot be: lines close in on it as on a peak.
+function closedIn(cells) {
+  const peak = max(cells, ({ value }) => value);
+  return cells.map(({ value }) => value ?? peak);
+}
+
 const stripMark = (strips, fill) =>
   Plot.rect(strips, { x1: "x1", x2: "x2", y1: "y1", y2: "y2", fill, shapeRendering: "crispEdges" });
-
-// Where nothing is known the robot is singular or cannot be: lines close in on it as on a peak.
-function contours(cells, { type, domain: [least, most] }, grid, frame) {
-  if (grid.width < 3 || grid.height < 3) return null;
-  const peak = max(cells, ({ value }) => value);
-  const levels = Array.from({ length: CONTOURS }, (_, index) => {
-    const share = (index + 1) / (CONTOURS + 1);
-    return type === "log" ? least * (most / least) ** share : least + share * (most - least);
-  });
-  return Plot.contour(
-    cells.map(({ value }) => value ?? peak),
-    {
-      ...grid,
-      ...frame,
-      thresholds: levels,
-      stroke: "white",
-      strokeOpacity: 0.55,
-      strokeWidth: 0.8,
-      fill: "none",
-    },
-  );
-}
 
 function hatches() {
   const lines = (id, className, path) =>

@@ -1,10 +1,9 @@
 // Images and edges that did not take part, with the reasons.
-import { append, html, muted, table } from "../shared/dom.js";
+import { append, muted, table } from "../shared/dom.js";
 import { plural, sentence } from "../shared/format.js";
+import { pictureLink, pictureLinks } from "../shared/picture_links.js";
+import { groupedByReason } from "../shared/reasons.js";
 import { leftOutEdges } from "./observations.js";
-import { pictureLink } from "./picture_links.js";
-
-const LINKS_SHOWN = 12;
 
 export function renderLeftOut(section, data) {
   const images = data.calibration?.images_left_out ?? [];
@@ -36,25 +35,10 @@ function edgeTable(edges) {
     [
       { label: "Edge", text: true, cell: ({ leg, edge }) => `Leg ${leg}, edge ${edge}` },
       { label: "Times", cell: ({ images }) => images.length },
-      { label: "Images", text: true, cell: ({ images }) => links(images) },
+      { label: "Images", text: true, cell: ({ images }) => pictureLinks(images) },
     ],
     groups,
   );
-}
-
-// Reasons that differ only in their numbers belong together; their numbers are then shown as "…".
-export function groupedByReason(edges) {
-  const groups = new Map();
-  for (const edge of edges) {
-    const pattern = edge.reason.replace(/[-+]?\d+(\.\d+)?/g, "…");
-    groups.set(pattern, [...(groups.get(pattern) ?? []), edge]);
-  }
-  return [...groups]
-    .map(([pattern, members]) => {
-      const same = members.every(({ reason }) => reason === members[0].reason);
-      return { reason: same ? members[0].reason : pattern, members };
-    })
-    .sort((a, b) => b.members.length - a.members.length);
 }
 
 function byLegAndEdge(edges) {
@@ -65,16 +49,4 @@ function byLegAndEdge(edges) {
     rows.get(id).images.push(image);
   }
   return [...rows].sort(([a], [b]) => a - b).map(([, row]) => row);
-}
-
-function links(names) {
-  const separated = (some) => some.flatMap((name, index) => [index ? " " : "", pictureLink(name)]);
-  const rest = names.slice(LINKS_SHOWN);
-  return html(
-    "span",
-    { class: "links" },
-    separated(names.slice(0, LINKS_SHOWN)),
-    rest.length > 0 &&
-      html("details", null, html("summary", null, `and ${rest.length} more`), separated(rest)),
-  );
 }

@@ -1,7 +1,7 @@
 // Fills the page from its embedded data.
+import { renderCorrelations } from "../shared/correlations.js";
 import { embeddedData, renderHeader, renderSection } from "../shared/page.js";
 import { renderChecks } from "./checks.js";
-import { renderCorrelations } from "./correlations.js";
 import { renderLeftOut } from "./left_out.js";
 import { renderOptions } from "./options.js";
 import { renderParameters } from "./parameters.js";

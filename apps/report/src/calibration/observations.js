@@ -1,6 +1,6 @@
 // The measurements of the data as flat lists, and the statistics that several sections share.
-import { quantile } from "d3";
 import { isNumber } from "../shared/format.js";
+import { magnitudeQuantile } from "../shared/statistics.js";
 
 // Weight below which a sample counts as an outlier; the estimator's weights fall from 1 at 3 sigma to 0 at 6.
 export const OUTLIER_WEIGHT = 0.5;
@@ -38,10 +38,6 @@ export function leftOutEdges(data) {
   );
 }
 
-// The magnitude that the given share of the values stays below; 0 without values.
-export const magnitudeQuantile = (values, share) =>
-  quantile(values.filter(isNumber).map(Math.abs), share) ?? 0;
-
 // A range (px) that shows all samples but outliers, with some room.
 export function residualLimit(samples) {
   const inliers = samples.filter((sample) => !isOutlier(sample)).map(({ residual }) => residual);
@@ -63,10 +59,4 @@ export function meanAlong(
   return sums
     .map(({ weight, residual }, index) => ({ place: (index + 0.5) / bins, weight, mean: residual / weight }))
     .filter(({ weight }) => weight > 0);
-}
-
-// Every n-th element, so that no more than `limit` are left.
-export function thinned(values, limit) {
-  const step = Math.ceil(values.length / limit);
-  return step <= 1 ? values : values.filter((_, index) => index % step === 0);
 }

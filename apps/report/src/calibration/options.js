@@ -1,6 +1,7 @@
 // With what the calibration was run.
 import { append, definitions, html } from "../shared/dom.js";
 import { MISSING } from "../shared/format.js";
+import { inText, spaced } from "../shared/option_words.js";
 
 export function renderOptions(section, data) {
   const provenance = [
@@ -15,20 +16,4 @@ export function renderOptions(section, data) {
     html("h3", null, "Options"),
     options.length ? definitions(options, "list") : html("p", { class: "muted" }, "All default."),
   );
-}
-
-const spaced = (name) => name.replaceAll("_", " ");
-
-function inText(value) {
-  if (value === null || value === undefined || value === "") return MISSING;
-  if (typeof value === "boolean") return value ? "yes" : "no";
-  if (Array.isArray(value)) return value.length ? value.map(inText).join(", ") : "none";
-  if (typeof value === "object") {
-    return (
-      Object.entries(value)
-        .map(([name, part]) => `${spaced(name)}: ${inText(part)}`)
-        .join("; ") || "none"
-    );
-  }
-  return String(value);
 }

@@ -2,6 +2,7 @@
 import { interpolateRdYlBu } from "d3";
 import { svg } from "../shared/dom.js";
 import { isNumber, significant, signed } from "../shared/format.js";
+import { symbol } from "../shared/picture_symbols.js";
 import { edgesOf, isOutlier, namedSample } from "./observations.js";
 
 // Colour of a residual: blue inward, yellow none, red outward; full at `limit`.
@@ -87,26 +88,13 @@ function foundPoint(sample, { leg, edge }, limit) {
   const weight = significant(sample.weight, 2);
   const title = `Leg ${leg}, edge ${edge}: ${signed(sample.residual, 3)} px, weight ${weight}`;
   const dot = `M${sample.x},${sample.y}h0`;
-  if (isOutlier(sample)) return outlierCross(sample, title);
+  if (isOutlier(sample)) return symbol(sample, "cross", "outlier", title);
   const fill = isNumber(sample.residual) ? residualColor(sample.residual, limit) : "gray";
   return svg(
     "g",
     null,
     svg("path", { class: "halo", d: dot }),
     svg("path", { class: "found", d: dot, stroke: fill }, svg("title", null, title)),
-  );
-}
-
-// --unit is one screen pixel in pixels of the image (see pictures.js): the cross keeps its size when zooming.
-function outlierCross({ x, y }, title) {
-  return svg(
-    "path",
-    {
-      class: "outlier",
-      d: "M-4,-4L4,4M-4,4L4,-4",
-      style: `transform:translate(${x}px,${y}px) scale(var(--unit))`,
-    },
-    svg("title", null, title),
   );
 }
 

@@ -2,21 +2,21 @@
 import * as Plot from "@observablehq/plot";
 import { append, figure, html, muted } from "../shared/dom.js";
 import { isNumber, significant, withUnit } from "../shared/format.js";
+import { nameAxis } from "../shared/name_axis.js";
+import { showPicture } from "../shared/picture_links.js";
 import { COLOR, TIP, asOnePath, key, plot, responsive } from "../shared/plots.js";
+import { thinned } from "../shared/statistics.js";
 import {
   OUTLIER_WEIGHT,
   imagesOf,
   isOutlier,
   meanAlong,
   residualLimit,
-  thinned,
   usedEdges,
   usedSamples,
 } from "./observations.js";
-import { showPicture } from "./pictures.js";
 
 const DRAWN_DOTS = 12000;
-const LABELLED_IMAGES = 60;
 const LEGS = [1, 2, 3, 4, 5, 6];
 const EDGES = [1, 2];
 const EDGE_COLOR = { 1: COLOR.first, 2: COLOR.second };
@@ -66,7 +66,13 @@ function imagePlot(images, rms, width) {
     marginLeft: 52,
     marginBottom: 56,
     marginTop: 26,
-    x: { ...nameAxis(images.map(({ name }) => name)), label: null },
+    x: {
+      ...nameAxis(
+        images.map(({ name }) => name),
+        width,
+      ),
+      label: null,
+    },
     y: { label: "rms, px", zero: true, grid: true, nice: true, labelArrow: false },
     marks: [
       isNumber(rms) ? Plot.ruleY([rms], { stroke: COLOR.muted, strokeDasharray: "4 3" }) : null,
@@ -98,19 +104,6 @@ function imagePlot(images, rms, width) {
   drawing.classList.add("clickable");
   return drawing;
 }
-
-function nameAxis(names) {
-  const step = Math.ceil(names.length / LABELLED_IMAGES);
-  return {
-    type: "point",
-    domain: names,
-    ticks: names.filter((_, index) => index % step === 0),
-    tickRotate: -60,
-    tickFormat: (name) => shortened(name.replace(/\.[A-Za-z]+$/, "")),
-  };
-}
-
-const shortened = (text) => (text.length > 10 ? `…${text.slice(-9)}` : text);
 
 function imageTip({ name, rms_px: rms, held_out_rms_px: heldOut, left_out: leftOut }) {
   const pixels = (value) => withUnit(significant(value), "px");

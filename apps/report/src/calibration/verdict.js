@@ -1,6 +1,6 @@
 // The verdict in plain words, and the key figures.
 import { append, definitions } from "../shared/dom.js";
-import { MISSING, decimalsFor, fixed, isNumber, significant, withUnit } from "../shared/format.js";
+import { MISSING, fixed, isNumber, plusMinus, significant, withUnit } from "../shared/format.js";
 import { verdictBox } from "../shared/verdict_box.js";
 import { judge } from "./judgement.js";
 
@@ -26,7 +26,7 @@ function keyFigures(calibration) {
     ["Noise of one edge point", pixels(noise), "standard deviation, from the residuals"],
     ["Images used", usedOf(calibration.images_used, calibration.images_left_out?.length)],
     ["Edges used", calibration.edges_used ?? MISSING],
-    ["Focal length fx", plusMinus(camera?.fx, camera?.sigma?.fx, "px", 1)],
+    ["Focal length fx", plusMinus(camera?.fx, camera?.sigma?.fx, "px")],
     ["Base joints", largestSigma(legs, "base_joint_m", "mm", 1e3), "largest σ of a coordinate, base frame"],
     ["Platform joints", largestSigma(legs, "platform_joint_m", "mm", 1e3), "largest σ of a coordinate"],
     ["Radii", largestSigma(legs, "radius_m", "µm", 1e6), "largest σ"],
@@ -37,13 +37,6 @@ function keyFigures(calibration) {
 
 const pixels = (value) => withUnit(significant(value), "px");
 const usedOf = (used, leftOut) => (isNumber(used) ? `${used} of ${used + (leftOut ?? 0)}` : MISSING);
-
-function plusMinus(value, sigma, unit, scale) {
-  if (!isNumber(value)) return MISSING;
-  const decimals = decimalsFor(sigma * scale, 1);
-  const spread = isNumber(sigma) && sigma > 0 ? ` ± ${fixed(sigma * scale, decimals)}` : "";
-  return withUnit(fixed(value * scale, decimals) + spread, unit);
-}
 
 function largestSigma(legs, field, unit, scale) {
   const sigmas = (legs ?? []).flatMap((leg) => leg?.sigma?.[field] ?? []).filter(isNumber);

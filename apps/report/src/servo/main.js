@@ -1,6 +1,6 @@
 // Fills the page from its embedded data.
 import { isNumber } from "../shared/format.js";
-import { embeddedData, renderHeader, renderSection } from "../shared/page.js";
+import { embeddedData, renderHeader, renderSections, withoutNulls } from "../shared/page.js";
 import { renderConditioning } from "./conditioning.js";
 import { renderErrors } from "./errors.js";
 import { renderGain } from "./gain.js";
@@ -27,15 +27,9 @@ const SECTIONS = {
   settings: [() => true, renderSettings],
 };
 
-// Members that are null are as good as missing.
-const data = Object.fromEntries(Object.entries(embeddedData()).filter(([, value]) => value !== null));
+const data = withoutNulls(embeddedData());
 const times = data.cycles?.time_s ?? [];
 const run = { data, times, moment: new Moment(times) };
 const program = data.program_version && `legible ${data.program_version}`;
 renderHeader(data.title ?? "Servo report", "servo report", [data.log, data.model, data.rig, program]);
-for (const [id, [isThere, render]] of Object.entries(SECTIONS)) {
-  const there = Boolean(isThere(data));
-  document.getElementById(id).hidden = !there;
-  document.querySelector(`nav a[href="#${id}"]`).hidden = !there;
-  if (there) renderSection(id, render, run);
-}
+renderSections(SECTIONS, data, run);

@@ -1,6 +1,6 @@
 // Quantities of a run in the units that people read: millimetres, milliradians, milliseconds.
-import { html } from "../shared/dom.js";
-import { MISSING, isNumber, significant } from "../shared/format.js";
+import { valueAt } from "../shared/document.js";
+import { measured } from "../shared/numbers.js";
 
 // scale takes SI to the unit
 export const MM = { unit: "mm", scale: 1e3 };
@@ -39,13 +39,8 @@ export function unitOf(path, value, document) {
 
 // A number of the document as an element that keeps all its digits and says where it comes from. A count stays whole.
 export function figureOf(document, path) {
-  const value = path.split(".").reduce((part, name) => part?.[name], document);
-  if (!isNumber(value)) return MISSING;
-  const { unit, scale } = unitOf(path, value, document);
-  const shown = Number((scale * value).toPrecision(12));
-  const text = isCount(path) ? String(value) : significant(shown);
-  const number = html("data", { value: String(shown), "data-value": path, "data-unit": unit }, text);
-  return unit ? html("span", null, number, html("span", { class: "unit" }, ` ${unit}`)) : number;
+  const value = valueAt(document, path);
+  return measured(value, unitOf(path, value, document), path, isCount(path) ? String(value) : null);
 }
 
 const isCount = (path) => path === "iterations" || /^legs\./.test(path);

@@ -42,7 +42,17 @@ export function tick(value) {
 export const superscript = (exponent) =>
   [...String(exponent)].map((character) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[character] ?? "⁻").join("");
 
-export const withUnit = (text, unit) => (text === MISSING || !unit ? text : `${text} ${unit}`);
+// What stands between a number and its unit, with the unit.
+export const afterNumber = (unit) => (unit === "°" ? unit : ` ${unit}`);
+export const withUnit = (text, unit) => (text === MISSING || !unit ? text : text + afterNumber(unit));
+
+// "650.12 ± 0.04 px", the digits decided by sigma.
+export function plusMinus(value, sigma, unit) {
+  if (!isNumber(value)) return MISSING;
+  const decimals = decimalsFor(sigma, 1);
+  const spread = isNumber(sigma) && sigma > 0 ? ` ± ${fixed(sigma, decimals)}` : "";
+  return withUnit(fixed(value, decimals) + spread, unit);
+}
 
 export const percent = (fraction) =>
   isNumber(fraction) ? withUnit(significant(100 * fraction, 2), "%") : MISSING;

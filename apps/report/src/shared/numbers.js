@@ -1,6 +1,6 @@
 // Numbers as elements that keep all their digits, for the copy button and for tests.
 import { barCell, html } from "./dom.js";
-import { MISSING, isNumber, significant } from "./format.js";
+import { MISSING, afterNumber, isNumber, significant } from "./format.js";
 
 // path: where in the selected pose the number stands, such as "max_error.position"; with a leading "document." where
 // in the document.
@@ -15,9 +15,21 @@ export const barred = (value, full, path) => [
 ];
 
 export const withUnit = (element, unit) =>
-  unit && element.textContent !== MISSING
-    ? html("span", null, element, html("span", { class: "unit" }, ` ${unit}`))
+  unit && element !== MISSING && element.textContent !== MISSING
+    ? html("span", null, element, html("span", { class: "unit" }, afterNumber(unit)))
     : element;
+
+// A number of a document in a unit, to which `scale` takes it from SI; path: where in the document it stands.
+export const measured = (value, unit, path, text = null) =>
+  withUnit(measuredNumber(value, unit, path, text), unit.unit);
+
+// The same where the unit stands elsewhere.
+export function measuredNumber(value, { unit, scale }, path, text = null) {
+  if (!isNumber(value)) return MISSING;
+  const shown = Number((scale * value).toPrecision(12));
+  const attributes = { value: String(shown), "data-value": path, "data-unit": unit };
+  return html("data", attributes, text ?? significant(shown));
+}
 
 // {value, half_width} -> "0.0512 ± 0.0003"; the half width with two digits.
 export function estimate(found) {

@@ -3,6 +3,10 @@ import { append, html } from "./dom.js";
 
 export const embeddedData = () => JSON.parse(document.getElementById("data").textContent);
 
+// Members that are null are as good as missing.
+export const withoutNulls = (data) =>
+  Object.fromEntries(Object.entries(data).filter(([, value]) => value !== null));
+
 // One section that fails must not take the others with it.
 export function renderSection(id, render, data) {
   const section = document.getElementById(id);
@@ -11,6 +15,20 @@ export function renderSection(id, render, data) {
   } catch (error) {
     console.error(error);
     append(section, html("p", { class: "notice" }, `This section could not be drawn: ${error.message}`));
+  }
+}
+
+export function showSection(id, there) {
+  document.getElementById(id).hidden = !there;
+  document.querySelector(`nav a[href="#${id}"]`).hidden = !there;
+}
+
+// sections: {id: [isThere(data), render(section, given)]}. Those that have nothing to show are gone, with the links to them.
+export function renderSections(sections, data, given = data) {
+  for (const [id, [isThere, render]] of Object.entries(sections)) {
+    const there = Boolean(isThere(data));
+    showSection(id, there);
+    if (there) renderSection(id, render, given);
   }
 }
 

@@ -58,6 +58,14 @@ function background(address, { width, height }) {
     return svg("image", { href: address, x: -0.5, y: -0.5, width, height, preserveAspectRatio: "none" });
   return [
     svg("rect", { x: -0.5, y: -0.5, width, height, class: "no-picture" }),
-    svg("text", { x: width / 2, y: 28, class: "no-picture-text" }, MISSING_TEXT),
+    svg(
+      "text",
+      {
+        y: 28,
+        class: "no-picture-text",
+        style: `transform:translate(${width / 2}px,0) scale(var(--unit))`,
+      },
+      MISSING_TEXT,
+    ),
   ];
 }

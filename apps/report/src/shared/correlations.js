@@ -1,11 +1,13 @@
 // The correlations of the parameters as a map, and the strongest pairs as a table.
 import * as Plot from "@observablehq/plot";
-import { append, figure, html, muted, table } from "../shared/dom.js";
-import { fixed, isNumber } from "../shared/format.js";
-import { describeParameter, parameterTitle } from "../shared/parameter_names.js";
-import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
+import { append, figure, html, muted, table } from "./dom.js";
+import { fixed, isNumber } from "./format.js";
+import { describeParameter, parameterTitle } from "./parameter_names.js";
+import { COLOR, TIP, plot, responsive } from "./plots.js";
 
 const STRONGEST_PAIRS = 12;
+// So few parameters have room for their names and numbers in the map.
+const FEW = 16;
 
 export function renderCorrelations(section, data) {
   const parameters = orderedParameters(data.correlations ?? {});
@@ -27,7 +29,7 @@ export function renderCorrelations(section, data) {
         mapCaption(),
         responsive((width) => map(parameters, cells, width)),
       ),
-      pairTable(cells),
+      pairTable(parameters, cells),
     ),
   );
 }
@@ -86,7 +88,7 @@ function map(parameters, cells, available) {
         fillOpacity: ({ value }) => Math.abs(value),
         shapeRendering: "crispEdges",
       }),
-      ...groupMarks(groups, parameters.length),
+      ...(parameters.length > FEW ? groupMarks(groups, parameters.length) : nameMarks(parameters, cells)),
       Plot.tip(cells, Plot.pointer({ x: "x", y: "y", title: cellTitle, maxRadius: 12, ...TIP })),
     ],
   });
@@ -113,16 +115,48 @@ function groupMarks(groups, count) {
   ];
 }
 
+const nameMarks = (parameters, cells) => [
+  Plot.text(parameters, { x: (_, index) => index, y: -0.5, text: shortName, dy: -9, fill: COLOR.text }),
+  Plot.text(parameters, {
+    x: -0.5,
+    y: (_, index) => index,
+    text: shortName,
+    dx: -7,
+    textAnchor: "end",
+    fill: COLOR.text,
+  }),
+  Plot.text(
+    cells.filter(({ x, y }) => x !== y),
+    {
+      x: "x",
+      y: "y",
+      text: ({ value }) => fixed(value, 2).replace("0.", "."),
+      fill: ({ value }) => (Math.abs(value) > 0.6 ? COLOR.page : COLOR.text),
+      fontSize: 11,
+    },
+  ),
+];
+
+// "focal length fx" -> "fx"
+const shortName = ({ label }) => label.split(" ").at(-1);
+
 const cellTitle = ({ a, b, value }) =>
   `${parameterTitle(a.name)}\n${a === b ? "with itself" : parameterTitle(b.name)}\n${fixed(value, 3)}`;
 
-function pairTable(cells) {
+// Without the group where there is only one.
+const titlesOf = (parameters) =>
+  new Set(parameters.map(({ group }) => group)).size > 1
+    ? ({ name }) => parameterTitle(name)
+    : ({ label }) => label;
+
+function pairTable(parameters, cells) {
+  const title = titlesOf(parameters);
   const pairs = cells.filter(({ x, y }) => x < y).sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
   return table(
     "Strongest pairs",
     [
-      { label: "Parameter", text: true, cell: ({ b }) => parameterTitle(b.name) },
-      { label: "with", text: true, cell: ({ a }) => parameterTitle(a.name) },
+      { label: "Parameter", text: true, cell: ({ b }) => title(b) },
+      { label: "with", text: true, cell: ({ a }) => title(a) },
       { label: "Correlation", cell: ({ value }) => fixed(value, 3) },
     ],
     [{ rows: pairs.slice(0, STRONGEST_PAIRS) }],

@@ -1,4 +1,4 @@
-// What make_servo_data.mjs needs of geometry and algebra, without packages. Quaternions are x, y, z, w.
+// What the makers of example data need of geometry and algebra, without packages. Quaternions are x, y, z, w.
 
 export const dot = (a, b) => a.reduce((sum, value, index) => sum + value * b[index], 0);
 export const plus = (a, b, scale = 1) => a.map((value, index) => value + scale * b[index]);
@@ -52,14 +52,15 @@ export function jacobian(f, pose, step = 1e-6) {
   return columns[0].map((_, row) => columns.map((column) => column[row]));
 }
 
-const normalMatrix = (rows) =>
-  rows[0].map((_, i) => rows[0].map((__, j) => rows.reduce((sum, row) => sum + row[i] * row[j], 0)));
+// The transpose of a times b, of matrices with as many rows.
+export const crossed = (a, b) =>
+  a[0].map((_, i) => b[0].map((__, j) => a.reduce((sum, row, k) => sum + row[i] * b[k][j], 0)));
+export const normalMatrix = (rows) => crossed(rows, rows);
 
-// The x that minimises |rows x - wanted|, by the normal equations.
-export function leastSquares(rows, wanted) {
-  const right = rows[0].map((_, i) => rows.reduce((sum, row, k) => sum + row[i] * wanted[k], 0));
-  const system = normalMatrix(rows).map((row, i) => [...row, right[i]]);
-  const size = system.length;
+// The matrix after which `matrix` times it is `right`, by Gauss and Jordan.
+export function solved(matrix, right) {
+  const size = matrix.length;
+  const system = matrix.map((row, i) => [...row, ...right[i]]);
   for (let column = 0; column < size; ++column) {
     const rest = system.slice(column);
     const pivot =
@@ -72,7 +73,13 @@ export function leastSquares(rows, wanted) {
       if (row !== column)
         system[row] = plus(system[row], system[column], -system[row][column] / system[column][column]);
   }
-  return system.map((row, i) => row[size] / row[i]);
+  return system.map((row, i) => row.slice(size).map((value) => value / row[i]));
+}
+
+// The x that minimises |rows x - wanted|, by the normal equations.
+export function leastSquares(rows, wanted) {
+  const right = rows[0].map((_, i) => [rows.reduce((sum, row, k) => sum + row[i] * wanted[k], 0)]);
+  return solved(normalMatrix(rows), right).map(([value]) => value);
 }
 
 // Singular values, the largest first: roots of the eigenvalues of the normal matrix by Jacobi rotations.
