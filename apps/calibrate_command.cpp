@@ -76,7 +76,32 @@ void DemandSomeImage(const Session& session) {
   if (first_error) throw *first_error;
 }
 
-CalibrationRun Load(const CalibrateSettings& settings) {
+// The camera as the board has it is where the legs' estimate begins; together both tell more.
+void AddBoard(CalibrationRun& run, ProgressLine& progress) {
+  const CalibrateSettings& settings = run.settings;
+  IntrinsicsSettings board;
+  board.images = settings.board_images;
+  board.board = *settings.board;
+  board.lens = settings.lens.value_or(run.session.camera.lens);
+  board.threads = settings.threads;
+  run.board = LoadViews(board, progress);
+  const BoardCalibrationInput& input = run.board->input;
+  Camera& camera = run.session.camera;
+  if (input.width_px != camera.width_px || input.height_px != camera.height_px)
+    throw InputError(input.views.front().file, 0,
+                     fmt::format("is {} x {} px, and the session's camera has {} x {}", input.width_px,
+                                 input.height_px, camera.width_px, camera.height_px),
+                     "give board images of the same camera, at the same resolution");
+  Calibrate(*run.board, progress);
+  if (run.board->result.status != BoardCalibrationStatus::kConverged)
+    throw InputError(*settings.board, 0, "leads to no camera: " + run.board->result.message,
+                     "see what legible intrinsics says of these images");
+  camera = run.board->result.camera;
+  run.session.known.camera_information.resize(0, 0);
+  run.options.board = SolvedProblem(input, run.board->result, run.board->options);
+}
+
+CalibrationRun Load(const CalibrateSettings& settings, ProgressLine& progress) {
   CalibrationRun run;
   run.settings = settings;
   run.session = ReadSession(settings.session);
@@ -90,6 +115,7 @@ CalibrationRun Load(const CalibrateSettings& settings) {
     throw InputError(run.session.folder, 0, "cannot be calibrated with these --tags", error.what());
   }
   run.content_hash = ContentHash(run.session);
+  if (settings.board) AddBoard(run, progress);
   return run;
 }
 
@@ -142,10 +168,10 @@ void Print(const CalibrationRun& run, const FoundParameters& found, const std::v
 int RunCalibrate(const CalibrateSettings& settings, const Console& console) {
   const Stopwatch total;
   DemandWritable(settings.out, kResultFiles);
-  CalibrationRun run = Load(settings);
+  ProgressLine progress(console);
+  CalibrationRun run = Load(settings, progress);
   const double load_s = total.Seconds();
 
-  ProgressLine progress(console);
   ShowProgressOn(progress, run.options);
   run.result = Calibrate(run);
   progress.Show("writing the report");

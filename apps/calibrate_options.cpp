@@ -36,6 +36,7 @@ Exit codes:
 Examples:
   legible calibrate datasets/hexapod
   legible calibrate my-session --out result --known radius_m=2e-5 --hold principal-point
+  legible calibrate my-session --with-board board-images --board board.yaml
   legible calibrate my-session --format json | jq .held_out.rms_px)";
 
 void AddOutputOptions(CLI::App& command, CalibrateSettings& settings) {
@@ -94,6 +95,20 @@ void AddKnowledgeOptions(CLI::App& command, CalibrateSettings& settings) {
                    "image), and nothing\nknown beforehand but by --known and --tags");
 }
 
+void AddBoardOptions(CLI::App& command, CalibrateSettings& settings) {
+  CLI::Option* images =
+      command
+          .add_option(
+              "--with-board", settings.board_images,
+              "Images of a calibration board by the same camera, or\nfolders of them, solved together "
+              "with the legs; what\ncamera.yaml says of how well it is known is left out")
+          ->type_name("IMAGES");
+  command.add_option("--board", settings.board, "The board that they show; see legible intrinsics")
+      ->type_name("BOARD.yaml")
+      ->needs(images);
+  images->needs("--board");
+}
+
 void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {
   command
       .add_option("--folds", settings.folds,
@@ -122,6 +137,7 @@ const CLI::App* AddCalibrateCommand(CLI::App& program, CalibrateSettings& settin
   AddOutputOptions(*command, settings);
   AddModelOptions(*command, settings);
   AddKnowledgeOptions(*command, settings);
+  AddBoardOptions(*command, settings);
   AddWorkOptions(*command, settings);
   return command;
 }

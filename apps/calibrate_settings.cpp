@@ -97,7 +97,7 @@ PriorKnowledge WithSettings(const PriorKnowledge& session, const CalibrateSettin
   PriorKnowledge known = settings.free_legs ? PriorKnowledge{} : session;
   if (ForgetsCamera(settings.known)) known.camera_information.resize(0, 0);
   for (const auto& [name, sigma] : settings.known)
-    if (const auto field = Find(kKnownFields, name)) known.**field = sigma;
+    if (const auto field = Find(kKnownFields, name)) known.** field = sigma;
   return known;
 }
 
@@ -171,6 +171,11 @@ std::string OptionsText(const CalibrateSettings& settings) {
   for (const auto& [name, sigma] : settings.known)
     words.push_back(fmt::format("--known {}={}", name, sigma ? fmt::to_string(*sigma) : "none"));
   if (!settings.tags.empty()) words.push_back(fmt::format("--tags {}", fmt::join(settings.tags, ",")));
+  if (settings.board) {
+    std::string images = "--with-board";
+    for (const std::filesystem::path& path : settings.board_images) images += " " + path.string();
+    words.push_back(fmt::format("{} --board {}", images, settings.board->string()));
+  }
   if (!settings.use_readings) words.push_back("--no-readings");
   if (settings.free_legs) words.push_back("--free-legs");
   if (settings.folds != CalibrateSettings().folds) words.push_back(fmt::format("--folds {}", settings.folds));

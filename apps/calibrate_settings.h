@@ -21,6 +21,8 @@ struct CalibrateSettings {
   std::vector<std::string> hold;                                     // names of HoldNames()
   std::vector<std::pair<std::string, std::optional<double>>> known;  // names of KnownNames(); none: forgotten
   std::vector<std::string> tags;  // groups of tags.yaml that count as observations, or "all"
+  std::vector<std::filesystem::path> board_images;  // to be solved together with the legs
+  std::optional<std::filesystem::path> board;       // that they show
   bool use_readings = true;
   bool free_legs = false;  // edges only
   int folds = 5;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/camera_json.h"
+#include "apps/intrinsics_judgement.h"
 #include "apps/json_text.h"
 #include "apps/judgement.h"
 #include "apps/program.h"
@@ -148,11 +149,22 @@ void AddParameters(const CalibrationRun& run, const FoundParameters& found, orde
   json["legs"] = LegsJson(found);
 }
 
+// Of images of a board that were solved together with the legs.
+ordered_json BoardJson(const CalibrationRun& run) {
+  if (!run.board) return {};
+  return {{"file", run.settings.board->string()},
+          {"views_used", ViewsUsed(run.board->result)},
+          {"alone", CameraJson(run.board->result.camera, ParametersOf(run.board->result.camera))},
+          {"rms_px", run.board->result.rms_px},
+          {"content_hash", run.board->content_hash}};
+}
+
 void AddProvenance(const CalibrationRun& run, ordered_json& json) {
   json["program_version"] = ProgramVersion();
   json["session"] = SessionPath(run);
   json["content_hash"] = run.content_hash;
   json["options"] = OptionsText(run.settings);
+  json["board"] = BoardJson(run);
   json["first_camera_pose_from"] = run.result.first_pose_from;
 }
 

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/calibration_json.h"
+#include "apps/intrinsics_judgement.h"
 #include "apps/prior_pulls.h"
 #include "apps/program.h"
+#include "apps/wording.h"
 
 namespace legible {
 namespace {
@@ -77,14 +79,18 @@ json OptionsJson(const CalibrationRun& run) {
   json known = json::object();
   for (const auto& [name, sigma] : NamedKnowledge(run.session.known)) known[name] = sigma;
   if (run.session.known.camera_information.size() > 0) known["camera"] = "as a board told it";
-  return {{"options given", OptionsText(run.settings)},
-          {"assumption", AssumptionText(run.settings, run.session.known)},
-          {"lens", LensName(run.result.guessed_camera.lens)},
-          {"held", run.settings.hold},
-          {"known beforehand (σ)", known},
-          {"first camera pose from", run.result.first_pose_from},
-          {"folds of the held-out images", run.options.folds},
-          {"content hash of the session", run.content_hash}};
+  return {
+      {"options given", OptionsText(run.settings)},
+      {"assumption", AssumptionText(run.settings, run.session.known)},
+      {"lens", LensName(run.result.guessed_camera.lens)},
+      {"held", run.settings.hold},
+      {"known beforehand (σ)", known},
+      {"board", run.board ? fmt::format("{}, {} of {}, solved together", BoardText(run.board->board),
+                                        Plural(ViewsUsed(run.board->result), "view"), run.board->board.name)
+                          : std::string("none")},
+      {"first camera pose from", run.result.first_pose_from},
+      {"folds of the held-out images", run.options.folds},
+      {"content hash of the session", run.content_hash}};
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // All there is to say about one calibration: what went in, what came out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/calibrate_settings.h"
+#include "apps/intrinsics_run.h"
 #include "calib/session_calibration.h"
 #include "core/session/session.h"
 
@@ -15,8 +17,9 @@ struct CalibrationRun {
   Session session;  // its `known` as the settings left it
   SessionCalibrationOptions options;
   std::string content_hash;
-  SessionCalibration result;  // `times` of the whole command up to the writing of files
-  double report_s = 0;        // time that the report took
+  std::optional<IntrinsicsRun> board;  // where board images are solved together with the legs
+  SessionCalibration result;           // `times` of the whole command up to the writing of files
+  double report_s = 0;                 // time that the report took
 };
 
 // The session's folder as an absolute path, for those who read the results elsewhere.

@@ -180,6 +180,8 @@ void CheckInput(const LegCalibrationInput& input, const LegCalibrationOptions& o
                           sample.sigma_px, edge.leg + 1));
     }
   CheckTags(input, options);
+  if (input.board && input.board->camera.lens != input.camera.lens)
+    throw std::invalid_argument("CalibrateLegs: the board was seen through another lens model");
 }
 
 CalibrationStart StartOf(const LegCalibrationInput& input) {

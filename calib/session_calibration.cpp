@@ -285,6 +285,7 @@ class SessionCalibrator {
           prediction_.camera_from_base * prediction_.base_from_platform[i].value_or(prediction_.robot.home));
     }
     AddTags(which, input);
+    input.board = options_.board;
     return input;
   }
 

@@ -21,11 +21,12 @@ inline constexpr double kContradicting_sigma = 4;
 struct SessionCalibrationOptions {
   LegCalibrationOptions estimation;
   LegEdgeOptions edges;
-  std::optional<LensModel> lens;      // instead of the session camera's
-  std::set<std::string> tag_groups;   // that count as observations; the others check the model only
-  int scouts = 12;                    // images that the camera's first pose is refined on
-  int folds = 5;                      // of the cross-validation; 0: none
-  std::optional<std::uint64_t> seed;  // of which images are held out together; none: every folds-th
+  std::optional<LensModel> lens;           // instead of the session camera's
+  std::optional<BoardProblem> board = {};  // as LegCalibrationInput has it
+  std::set<std::string> tag_groups;        // that count as observations; the others check the model only
+  int scouts = 12;                         // images that the camera's first pose is refined on
+  int folds = 5;                           // of the cross-validation; 0: none
+  std::optional<std::uint64_t> seed;       // of which images are held out together; none: every folds-th
   int threads = 2;
   // stage: "reading", "finding tags", "looking for the legs", "finding edges", "solving", "checking"; done of
   // total. Called from several threads, at times at once.
