@@ -16,12 +16,13 @@ import {
   nearestToBoard,
   usedCorners,
 } from "../src/intrinsics/observations.js";
-import { cameraRows, coefficientNames } from "../src/intrinsics/parameters.js";
+import { cameraRows } from "../src/intrinsics/parameters.js";
 import { unitOf } from "../src/intrinsics/quantities.js";
 import { meansOver } from "../src/intrinsics/residual_field.js";
 import { tiltPoint } from "../src/intrinsics/tilts.js";
 import { logTicks } from "../src/shared/color_map.js";
 import { leavesOf } from "../src/shared/document.js";
+import { coefficientNames } from "../src/shared/parameter_names.js";
 
 const near = (found, wanted, tolerance = 1e-9) =>
   assert.ok(Math.abs(found - wanted) <= tolerance, `${found} is not ${wanted}`);

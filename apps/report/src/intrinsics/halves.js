@@ -138,11 +138,11 @@ const legend = (points) =>
       html("span", null, circleSwatch(), `${CIRCLE} times what noise would make (rms)`),
   );
 
-function summary(points, { distance_m: distance }) {
+function summary(points, { distance_m: distance, expected_px: expected }) {
   const beyond = points.filter(({ isBeyond }) => isBeyond).length;
   const away = isNumber(distance) ? ` Points ${distanceText(distance)} away.` : "";
-  return muted(
-    `In ${beyond} of ${points.length} places the arrow leaves its circle; noise alone does that in fewer than one of ` +
-      `twenty. Neighbouring places go together.${away}`,
-  );
+  const chance = expected
+    ? "noise alone does that in fewer than one of twenty. Neighbouring places go together."
+    : "all circles are as large as on average, and noise makes more towards the corners of the image.";
+  return muted(`In ${beyond} of ${points.length} places the arrow leaves its circle; ${chance}${away}`);
 }

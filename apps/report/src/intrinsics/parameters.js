@@ -5,11 +5,10 @@ import { valueAt } from "../shared/document.js";
 import { append, html, muted, table } from "../shared/dom.js";
 import { MISSING, decimalsFor, fixed, isNumber, percent } from "../shared/format.js";
 import { measuredNumber } from "../shared/numbers.js";
+import { coefficientNames } from "../shared/parameter_names.js";
 import { lensText } from "./judgement.js";
 import { unitOf } from "./quantities.js";
 
-const OPENCV = ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"];
-const FISHEYE = ["k1", "k2", "k3", "k4"];
 const PINHOLE = [
   ["fx", "Focal length fx"],
   ["fy", "Focal length fy"],
@@ -59,10 +58,6 @@ function relative({ value, sigma }) {
   if (!isNumber(value) || !isNumber(sigma) || value === 0 || sigma === 0) return MISSING;
   return percent(sigma / Math.abs(value));
 }
-
-// The names of a camera's distortion coefficients, in order.
-export const coefficientNames = ({ lens, distortion }) =>
-  (lens === "fisheye" ? FISHEYE : OPENCV).slice(0, distortion?.length ?? 0);
 
 function rowOf(document, name, path, sigmaPath) {
   const [value, sigma] = [valueAt(document, path), valueAt(document, sigmaPath)];

@@ -28,8 +28,8 @@ export function renderPictures(section, data) {
       section,
       muted("The corners came from a file, so there are no pictures: they are drawn on an empty frame."),
     );
-  const reach = magnitudeQuantile(usedCorners(data).map(lengthOf), 0.95);
-  const first = factorFor([reach, WHISKER_SHARE * imageSize(data).width]);
+  const residuals = usedCorners(data).map(lengthOf);
+  const first = factorFor([magnitudeQuantile(residuals, 0.95), WHISKER_SHARE * imageSize(data).width]);
   new PictureViewer(views, {
     nouns: { one: "view", many: "views", order: "in the order of the files" },
     errorOf: ({ rms_px: rms }) => rms,
@@ -38,12 +38,12 @@ export function renderPictures(section, data) {
     captionOf,
     detailsOf,
     overlay,
-    factor: { first, largest: 5 * first, step: first / 4 },
+    factor: residuals.length > 0 ? { first, largest: 5 * first, step: first / 4 } : null,
     toggles: [
       ["Corners", "hide-found"],
       ["Left out", "hide-left-out"],
     ],
-    legend: legend(),
+    legend: legend(residuals.length > 0),
   }).showIn(section);
 }
 
@@ -51,16 +51,15 @@ const sizeOf = (view) => (view.width > 0 && view.height > 0 ? view : extentOf([v
 
 function countsText(view) {
   const corners = cornersOf(view);
-  const counted = countOf(corners, FATE.whole) + countOf(corners, FATE.weighedDown);
+  const used = countOf(corners, FATE.whole) + countOf(corners, FATE.weighedDown);
   const others = [
     [countOf(corners, FATE.weighedDown), "weighed down"],
     [countOf(corners, FATE.outlier), "left out as outliers"],
     [view.left_out_corners?.length ?? 0, "left out before"],
   ].filter(([count]) => count > 0);
   const rest = others.map(([count, what]) => `, ${count} ${what}`).join("");
-  return view.left_out
-    ? `${plural(corners.length, "corner")} found${rest}`
-    : `${plural(counted, "corner")} used${rest}`;
+  const tookPart = corners.some(({ fate }) => fate !== FATE.unused);
+  return (tookPart ? `${plural(used, "corner")} used` : `${plural(corners.length, "corner")} found`) + rest;
 }
 
 // What the picture shows, for those who cannot see it.
@@ -85,38 +84,43 @@ function detailsOf(view) {
   return definitions(entries, "list");
 }
 
-function swatch(...marks) {
-  return svg("svg", { width: 26, height: 16, class: "on-picture", "aria-hidden": "true" }, marks);
-}
+const swatch = (...marks) =>
+  svg("svg", { width: 26, height: 16, class: "on-picture", "aria-hidden": "true" }, marks);
 
-const legend = () =>
+const residualKey = () => [
+  html(
+    "span",
+    null,
+    swatch(
+      svg("path", { class: "found whole", d: "M6,8h0" }),
+      svg("path", { class: "whisker whole", d: "M6,8L24,5" }),
+    ),
+    "corner with its residual, enlarged",
+  ),
+  html(
+    "span",
+    null,
+    swatch(svg("path", { class: "weighed-down-corner", d: "M13,2L19,8L13,14L7,8Z" })),
+    "weighed down",
+  ),
+  html(
+    "span",
+    null,
+    swatch(svg("path", { class: "outlier", d: "M9,4L17,12M9,12L17,4" })),
+    "outlier, left out",
+  ),
+];
+
+const legend = (hasResiduals) =>
   html(
     "div",
     { class: "legend" },
     html(
       "p",
       { class: "key" },
-      html(
-        "span",
-        null,
-        swatch(
-          svg("path", { class: "found whole", d: "M6,8h0" }),
-          svg("path", { class: "whisker whole", d: "M6,8L24,5" }),
-        ),
-        "corner with its residual, enlarged",
-      ),
-      html(
-        "span",
-        null,
-        swatch(svg("path", { class: "weighed-down-corner", d: "M13,2L19,8L13,14L7,8Z" })),
-        "weighed down",
-      ),
-      html(
-        "span",
-        null,
-        swatch(svg("path", { class: "outlier", d: "M9,4L17,12M9,12L17,4" })),
-        "outlier, left out",
-      ),
+      hasResiduals
+        ? residualKey()
+        : html("span", null, swatch(svg("path", { class: "found unused", d: "M13,8h0" })), "corner"),
       html(
         "span",
         null,

@@ -4,6 +4,8 @@ import { MINUS } from "./format.js";
 const LENGTH = { unit: "mm", scale: 1e3 };
 const PIXELS = { unit: "px", scale: 1 };
 const PURE = { unit: "", scale: 1 };
+const OPENCV = ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"];
+const FISHEYE = ["k1", "k2", "k3", "k4"];
 const FIELDS = {
   fx_px: { label: "focal length fx", ...PIXELS },
   fy_px: { label: "focal length fy", ...PIXELS },
@@ -25,6 +27,10 @@ function unitBySuffix(name) {
   if (/_rad\b/.test(name)) return { unit: "mrad", scale: 1e3 };
   return /_px\b/.test(name) ? PIXELS : PURE;
 }
+
+// The names of a camera's distortion coefficients, in order.
+export const coefficientNames = ({ lens, distortion }) =>
+  (lens === "fisheye" ? FISHEYE : OPENCV).slice(0, distortion?.length ?? 0);
 
 // {group, label, unit, scale} of a parameter such as "legs[1].platform_joint_m.x"; scale takes SI to the unit.
 export function describeParameter(name) {

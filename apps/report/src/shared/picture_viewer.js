@@ -14,13 +14,13 @@ export class PictureViewer {
   //   errorOf(image) (px, null: not known), sizeOf(image) {width, height}, describe(image): for those who cannot see it
   //   captionOf(image), detailsOf(image)     what stands above and below it
   //   overlay(image, factor)                 what is drawn over it, with residuals enlarged by the factor
-  //   factor       {first, largest, step} of that enlargement
+  //   factor       {first, largest, step} of that enlargement; null: there are no residuals
   //   toggles      [[label, class of the stage that hides it]]
   //   legend       element
   constructor(images, page) {
     this.images = images;
     this.page = page;
-    this.factor = page.factor.first;
+    this.factor = page.factor?.first ?? 0;
     this.order = images.map((_, index) => index);
     this.list = html("select", {
       size: 16,
@@ -71,7 +71,7 @@ export class PictureViewer {
       button("+", "Zoom in (+)", () => this.zoom.zoomIn()),
       button("−", "Zoom out (-)", () => this.zoom.zoomOut()),
       button("Fit", "Whole picture (0)", () => this.zoom.reset()),
-      this.factorSlider(),
+      this.page.factor && this.factorSlider(),
       this.page.toggles.map(([label, className]) => this.toggle(label, className)),
     );
   }
