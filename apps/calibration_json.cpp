@@ -88,6 +88,7 @@ ordered_json TagChecksJson(const std::vector<TagCheck>& checks) {
   for (const TagCheck& check : checks)
     json.push_back({{"group", check.group},
                     {"took_part", check.took_part},
+                    {"held_out", check.held_out},
                     {"images", check.images},
                     {"rms_px", check.rms_px},
                     {"rms_m", check.rms_m}});

@@ -48,10 +48,11 @@ std::string TagSentence(const Session& session, const TagCheck& check) {
   const std::string predicted =
       check.by_readings ? "the joint readings alone and the model put them" : "the model puts them";
   return fmt::format(
-      "tags {} on the {}, seen in {} images, lie within {:.3f} mm ({:.3f} px) rms of where {}, their own "
-      "place on it fitted{}",
-      check.group, on_platform ? "platform" : "base", check.images, 1e3 * check.rms_m, check.rms_px,
-      predicted, check.took_part ? " (they took part in the estimate)" : "");
+      "tags {} on the {}, seen in {} images{}, lie within {:.3f} mm ({:.3f} px) rms of where {}, their own "
+      "place on it fitted{}{}",
+      check.group, on_platform ? "platform" : "base", check.images, check.held_out ? " held out" : "",
+      1e3 * check.rms_m, check.rms_px, predicted, check.held_out ? " to the others" : "",
+      check.took_part ? " (they took part in the estimate)" : "");
 }
 
 std::string TagFitSentence(const LegCalibration& calibration, const TagGroupFit& fit) {

@@ -22,12 +22,6 @@ double Rounded(double value, double steps_per_unit = 1e3) {
 
 json PointJson(const Eigen::Vector2d& pixel) { return {Rounded(pixel.x(), 1e2), Rounded(pixel.y(), 1e2)}; }
 
-std::string WhyLeftOut(const IntrinsicsRun& run, const ViewFit& fit, size_t corner) {
-  const double off_px = fit.residual_px[corner].norm();
-  return fmt::format("{:.3g} px from where all others put it, {:.2g} times the noise", off_px,
-                     off_px / run.result.CornerSigma_px());
-}
-
 void AddCorners(const IntrinsicsRun& run, size_t view, json& one) {
   const ViewFit& fit = run.result.views[view];
   one["corners"] = json::array();
@@ -36,12 +30,9 @@ void AddCorners(const IntrinsicsRun& run, size_t view, json& one) {
     const Eigen::Vector2d& pixel = run.input.views[view].corners[k].pixel;
     const bool has_part = k < fit.weight.size();
     const Eigen::Vector2d residual = has_part ? fit.residual_px[k] : Eigen::Vector2d::Constant(NAN);
-    const double weight = has_part ? fit.weight[k] : 0;
+    const double weight = has_part ? fit.weight[k] : NAN;
     one["corners"].push_back({Rounded(pixel.x()), Rounded(pixel.y()), Rounded(residual.x(), 1e4),
                               Rounded(residual.y(), 1e4), Rounded(weight)});
-    if (has_part && weight == 0)
-      one["left_out_corners"].push_back(
-          {{"x", Rounded(pixel.x())}, {"y", Rounded(pixel.y())}, {"why", WhyLeftOut(run, fit, k)}});
   }
 }
 
@@ -49,12 +40,13 @@ void AddCorners(const IntrinsicsRun& run, size_t view, json& one) {
 void AddLeftOut(const IntrinsicsRun& run, size_t view, json& one) {
   one["unused"] = json::array();
   for (const LeftOut& part : run.left_out[view]) {
-    const std::string why = part.what + " " + part.reason;
     if (part.pixel)
-      one["left_out_corners"].push_back(
-          {{"x", Rounded(part.pixel->x())}, {"y", Rounded(part.pixel->y())}, {"why", why}});
+      one["left_out_corners"].push_back({{"x", Rounded(part.pixel->x())},
+                                         {"y", Rounded(part.pixel->y())},
+                                         {"what", part.what},
+                                         {"why", part.reason}});
     else
-      one["unused"].push_back(why);
+      one["unused"].push_back(part.what + " " + part.reason);
   }
 }
 
@@ -104,7 +96,9 @@ json MapsJson(const IntrinsicsRun& run) {
 
 json HalvesMapJson(const IntrinsicsRun& run) {
   if (!run.halves.why_not.empty()) return {};
-  json differences = json::array();
+  json differences = json::array(), expected = json::array();
+  for (const auto& expected_px : run.halves.expected_px)
+    expected.push_back(expected_px ? json(Rounded(*expected_px, 1e5)) : json());
   for (const auto& difference : run.halves.difference_px)
     differences.push_back(difference ? json({Rounded(difference->x(), 1e5), Rounded(difference->y(), 1e5)})
                                      : json());

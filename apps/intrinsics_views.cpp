@@ -146,8 +146,12 @@ void AddImages(IntrinsicsRun& run, const std::vector<std::filesystem::path>& fil
   DemandImagesOfOneSize(files, found);
   run.input.width_px = found.front().width_px;
   run.input.height_px = found.front().height_px;
+  std::map<std::filesystem::path, int> files_of_name;
+  for (const std::filesystem::path& file : files) ++files_of_name[file.filename()];
   for (size_t i = 0; i < files.size(); ++i) {
-    run.input.views.push_back({files[i].filename().string(), files[i], found[i].sighting.corners});
+    const bool is_unique = files_of_name[files[i].filename()] == 1;
+    const std::filesystem::path name = is_unique ? files[i].filename() : files[i];
+    run.input.views.push_back({name.string(), files[i], found[i].sighting.corners});
     run.left_out.push_back(found[i].sighting.left_out);
   }
 }

@@ -10,11 +10,28 @@
 
 namespace legible {
 
+// Tags that check the calibration: a group, and its corners in each image of the input (empty: not seen).
+struct CheckedGroup {
+  TagGroup group;
+  std::vector<GroupSighting> sightings;
+};
+
+// How far corners of a group are from where the model puts them.
+struct GroupCheck {
+  int images = 0;
+  double rms_px = 0;  // of the corners' distances
+  double rms_m = 0;   // across the line of sight, at each corner's depth
+};
+
 struct HeldOut {
   std::optional<double> rms_px;                     // over all samples of all images that have a figure
   std::vector<std::optional<double>> image_rms_px;  // by image of the input
   int folds = 0;                                    // turns, of which some image was held out in each
   int folds_failed = 0;                             // in which the rest did not converge
+  // Of each checked group, in images held out: the group's place on its carrier was fitted to the others, and
+  // the platform's pose comes from the joint readings alone. None where it was seen too rarely, or is on the
+  // platform and readings take no part.
+  std::vector<std::optional<GroupCheck>> groups;
 };
 
 // Which images are left out together: every folds-th, or, with a seed, as many at random. folds > 0.
@@ -27,13 +44,8 @@ std::vector<int> FoldsOf(size_t images, int folds, std::optional<std::uint64_t> 
 // where a joint reading of it did not count in the solution, where its readings lead to no pose, and where
 // the rest did not converge.
 HeldOut CrossValidate(const LegCalibrationInput& input, const LegCalibration& solution,
-                      const LegCalibrationOptions& options, const std::vector<int>& fold_of_image);
-
-struct GroupCheck {
-  int images = 0;
-  double rms_px = 0;
-  double rms_m = 0;  // across the line of sight, at each corner's depth
-};
+                      const LegCalibrationOptions& options, const std::vector<int>& fold_of_image,
+                      const std::vector<CheckedGroup>& groups = {});
 
 // How far a group's corners are from where the model puts them. The group's place on its carrier is known
 // roughly at best: the one that suits all images together is found first (camera_from_carrier: of each image,

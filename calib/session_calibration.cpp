@@ -332,16 +332,9 @@ class SessionCalibrator {
     if (options_.progress) options_.progress("checking", 0, 1);
     const std::vector<size_t>& used = result_.estimated;
     for (const EdgeResidualSet& edge : result_.calibration.edges) CountResiduals(edge, used);
-    if (options_.folds > 1) {
-      const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
-                                             FoldsOf(used.size(), options_.folds, options_.seed));
-      result_.held_out_folds = held_out.folds;
-      result_.held_out_rms_px = held_out.rms_px;
-      result_.held_out_folds_failed = held_out.folds_failed;
-      for (size_t k = 0; k < used.size(); ++k)
-        result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
-    }
-    if (session_.tags) CheckTags(used);
+    const std::vector<CheckedGroup> groups = GroupsToCheck(used);
+    if (options_.folds > 1) CheckHeldOut(used, groups);
+    CheckTags(used, groups);
     result_.held_differences =
         DifferencesOfHeld(Input(used), result_.calibration, options_.estimation, kContradicting_sigma);
   }
@@ -370,26 +363,61 @@ class SessionCalibrator {
                      commonest->first;
   }
 
-  void CheckTags(const std::vector<size_t>& used) {
-    const bool by_readings = options_.estimation.use_joint_readings;
+  void CheckHeldOut(const std::vector<size_t>& used, const std::vector<CheckedGroup>& groups) {
+    const HeldOut held_out = CrossValidate(Input(used), result_.calibration, options_.estimation,
+                                           FoldsOf(used.size(), options_.folds, options_.seed), groups);
+    result_.held_out_folds = held_out.folds;
+    result_.held_out_rms_px = held_out.rms_px;
+    result_.held_out_folds_failed = held_out.folds_failed;
+    for (size_t k = 0; k < used.size(); ++k)
+      result_.images[used[k]].held_out_rms_px = held_out.image_rms_px[k];
+    held_out_groups_ = held_out.groups;
+  }
+
+  // Of the images that the estimation was given.
+  std::vector<CheckedGroup> GroupsToCheck(const std::vector<size_t>& used) const {
+    std::vector<CheckedGroup> groups;
+    if (!session_.tags) return groups;
     for (const TagGroup& group : session_.tags->groups) {
       const bool on_platform = group.carrier == TagCarrier::kPlatform;
       if (misfit_groups_.contains(group.name) || (on_platform && !options_.estimation.rigid_platform))
         continue;
-      std::vector<GroupSighting> sightings;
-      std::vector<Rigid3> camera_from_carrier;
-      for (size_t k = 0; k < used.size(); ++k) {
-        if (!result_.images[used[k]].left_out.empty()) continue;
-        const auto carrier =
-            on_platform ? PlatformPose(k, used[k], by_readings) : std::optional(prediction_.camera_from_base);
-        if (!carrier) continue;
-        sightings.push_back(Match(group, result_.images[used[k]].tags));
-        camera_from_carrier.push_back(*carrier);
-      }
-      if (const auto check = CheckGroup(group, prediction_.camera, sightings, camera_from_carrier))
-        result_.tag_checks.push_back({group.name, TakesPart(group), on_platform && by_readings, check->images,
-                                      check->rms_px, check->rms_m});
+      groups.push_back({group, {}});
+      for (const size_t image : used)
+        groups.back().sightings.push_back(result_.images[image].left_out.empty()
+                                              ? Match(group, result_.images[image].tags)
+                                              : GroupSighting());
     }
+    return groups;
+  }
+
+  // On images held out where there are such; else against the model that has seen them all.
+  void CheckTags(const std::vector<size_t>& used, const std::vector<CheckedGroup>& groups) {
+    for (size_t g = 0; g < groups.size(); ++g) {
+      const TagGroup& group = groups[g].group;
+      const bool by_readings =
+          group.carrier == TagCarrier::kPlatform && options_.estimation.use_joint_readings;
+      const auto held_out = g < held_out_groups_.size() ? held_out_groups_[g] : std::nullopt;
+      const auto check = held_out ? held_out : CheckBySolution(used, groups[g]);
+      if (check)
+        result_.tag_checks.push_back({group.name, TakesPart(group), by_readings, held_out.has_value(),
+                                      check->images, check->rms_px, check->rms_m});
+    }
+  }
+
+  std::optional<GroupCheck> CheckBySolution(const std::vector<size_t>& used,
+                                            const CheckedGroup& checked) const {
+    const bool on_platform = checked.group.carrier == TagCarrier::kPlatform;
+    std::vector<GroupSighting> sightings;
+    std::vector<Rigid3> camera_from_carrier;
+    for (size_t k = 0; k < used.size(); ++k) {
+      const auto carrier = on_platform ? PlatformPose(k, used[k], options_.estimation.use_joint_readings)
+                                       : std::optional(prediction_.camera_from_base);
+      if (!carrier) continue;
+      sightings.push_back(checked.sightings[k]);
+      camera_from_carrier.push_back(*carrier);
+    }
+    return CheckGroup(checked.group, prediction_.camera, sightings, camera_from_carrier);
   }
 
   // By the readings alone, which is what the robot would be sent to, unless one of them did not count;
@@ -408,6 +436,7 @@ class SessionCalibrator {
   std::vector<GrayImage> images_;
   std::vector<double> squares_, weights_;
   std::set<std::string> misfit_groups_;
+  std::vector<std::optional<GroupCheck>> held_out_groups_;
   SessionCalibration result_;
 };
 

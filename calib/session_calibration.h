@@ -53,8 +53,9 @@ struct TagCheck {
   std::string group;
   bool took_part = false;    // as an observation: no independent check
   bool by_readings = false;  // the platform's poses came from the joint readings alone, not from the fit
+  bool held_out = false;     // in images that neither the model nor the group's place has seen
   int images = 0;
-  double rms_px = 0;  // corners, after the group's own place on its carrier was fitted over all images
+  double rms_px = 0;  // corners, after the group's own place on its carrier was fitted
   double rms_m = 0;   // the same, across the line of sight at the tags' distance
 };
 

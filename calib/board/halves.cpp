@@ -82,9 +82,12 @@ void Compare(const Camera& first, const Camera& second, const Eigen::MatrixXd& c
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(i);
     const Eigen::Vector2d difference_px = weighted.sigma_px[i] * differences.segment<2>(row);
     const GridPoint& point = weighted.points[i];
-    result.difference_px[static_cast<size_t>(point.row * result.grid.columns + point.column)] = difference_px;
+    const size_t cell = static_cast<size_t>(point.row * result.grid.columns + point.column);
+    const double expected_px = weighted.sigma_px[i] * (d.middleRows<2>(row) * root).norm();
+    result.difference_px[cell] = difference_px;
+    result.expected_px[cell] = expected_px;
     seen += difference_px.squaredNorm();
-    expected += weighted.sigma_px[i] * weighted.sigma_px[i] * (d.middleRows<2>(row) * root).squaredNorm();
+    expected += expected_px * expected_px;
   }
   result.difference_rms_px = std::sqrt(seen / static_cast<double>(weighted.points.size()));
   result.expected_rms_px = std::sqrt(expected / static_cast<double>(weighted.points.size()));
@@ -97,6 +100,7 @@ HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCa
   HalvesComparison result;
   result.grid = grid;
   result.difference_px.resize(static_cast<size_t>(grid.columns * grid.rows));
+  result.expected_px.resize(result.difference_px.size());
   BoardCalibrationOptions quiet = options;
   quiet.progress = nullptr;
   std::vector<BoardCalibration> found;

@@ -17,8 +17,9 @@ struct HalvesComparison {
   // Row by row: what one half's camera has elsewhere than the other's, px, after the motion of what stands
   // before the camera that suits best; none where a lens model does not reach.
   std::vector<std::optional<Eigen::Vector2d>> difference_px;
-  double difference_rms_px = 0;  // of the lengths
-  double expected_rms_px = 0;    // by both covariances
+  std::vector<std::optional<double>> expected_px;  // of its length, rms, by both covariances
+  double difference_rms_px = 0;                    // of the lengths
+  double expected_rms_px = 0;                      // by both covariances
   double ratio = 1;  // differences in units of what is expected of each, rms; 1 where the model is right
   double ratio_limit = 1;  // that a right model stays below 999 times in 1000
   bool HasMisfit() const { return why_not.empty() && ratio > ratio_limit; }

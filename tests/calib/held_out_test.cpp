@@ -93,6 +93,58 @@ TEST(CheckGroup, StaysWithinReachWhereCornersContradictEachOther) {
   EXPECT_LT(check->rms_m, 1);
 }
 
+// Tags on base and platform, in images that neither the model nor their own places have seen.
+HeldOut HeldOutTags(double edge_noise_px, double corner_sigma_px, double moved_m) {
+  SyntheticOptions synthetic;
+  synthetic.image_count = 20;
+  const SyntheticSession session = GenerateSession(synthetic);
+  const bool exact = edge_noise_px == 0;
+  LegCalibrationInput input{session.nominal_robot,
+                            session.true_camera,
+                            session.true_camera_from_base,
+                            exact ? session.exact_observations : session.observations,
+                            {},
+                            {}};
+  input.known.joint_reading_m = 2e-5;
+  std::vector<CheckedGroup> groups;
+  for (const ObservedTagGroup& tags : DrawTags(session, {.corner_sigma_px = corner_sigma_px})) {
+    groups.push_back({tags.group, {}});
+    for (const auto& detections : tags.detections)
+      groups.back().sightings.push_back(Match(tags.group, detections));
+    for (Eigen::Vector3d& corner : groups.back().sightings.front().corners_in_group_m) corner.x() += moved_m;
+  }
+  const LegCalibration solution = CalibrateLegs(input, {});
+  EXPECT_EQ(solution.status, CalibrationStatus::kConverged) << solution.message;
+  return CrossValidate(input, solution, {}, FoldsOf(input.images.size(), 4, std::nullopt), groups);
+}
+
+TEST(HeldOutTags, ArePredictedExactlyFromExactObservations) {
+  const HeldOut held_out = HeldOutTags(0, 0, 0);
+  ASSERT_EQ(held_out.groups.size(), 2u);
+  for (const auto& group : held_out.groups) {
+    ASSERT_TRUE(group);
+    EXPECT_EQ(group->images, 20);
+    EXPECT_LT(group->rms_px, 1e-3);
+    EXPECT_LT(group->rms_m, 1e-6);
+  }
+}
+
+TEST(HeldOutTags, ArePredictedToHardlyMoreThanTheirNoise) {
+  for (const auto& group : HeldOutTags(0.3, 0.1, 0).groups) {
+    ASSERT_TRUE(group);
+    EXPECT_GT(group->rms_px, 0.1);
+    EXPECT_LT(group->rms_px, 0.3);
+  }
+}
+
+// One image's tags, 5 mm off: what was seen of the others does not hide it.
+TEST(HeldOutTags, ShowAnImageInWhichTheTagsHaveMoved) {
+  for (const auto& group : HeldOutTags(0.3, 0.1, 5e-3).groups) {
+    ASSERT_TRUE(group);
+    EXPECT_GT(group->rms_m, 0.9 * 5e-3 / std::sqrt(20.0));
+  }
+}
+
 TEST(FoldsOf, AreEveryNthImageOrAsManyDrawnFromTheSeed) {
   EXPECT_EQ(FoldsOf(7, 3, std::nullopt), (std::vector<int>{0, 1, 2, 0, 1, 2, 0}));
   const std::vector<int> drawn = FoldsOf(40, 5, 3);

@@ -3,12 +3,11 @@ import * as Plot from "@observablehq/plot";
 import { median } from "d3";
 import { append, figure, html, muted, table } from "../shared/dom.js";
 import { MISSING, decimalsFor, fixed, isNumber, signed, significant } from "../shared/format.js";
+import { coefficientNames } from "../shared/parameter_names.js";
 import { COLOR, TIP, key, plot, responsive } from "../shared/plots.js";
 
 const AXES = ["x", "y", "z"];
 const AXIS_COLOR = { x: COLOR.first, y: COLOR.second, z: COLOR.third };
-const DISTORTION = ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"];
-const FISHEYE_DISTORTION = ["k1", "k2", "k3", "k4"];
 const CLEARLY_OFF_SIGMA = 3;
 
 const LEG_QUANTITIES = [
@@ -96,8 +95,7 @@ function cameraRows({ calibration, nominal }) {
     ["Principal point cx", "cx"],
     ["Principal point cy", "cy"],
   ].map(([name, field]) => row(name, "px", 2, (camera) => camera?.[field]));
-  const names = found.lens === "fisheye" ? FISHEYE_DISTORTION : DISTORTION;
-  const coefficients = names.slice(0, found.distortion?.length ?? 5).map((name, index) =>
+  const coefficients = coefficientNames(found).map((name, index) =>
     row(`Distortion ${name}`, "", 5, (camera) => camera?.distortion?.[index]),
   );
   return [{ rows: [...intrinsics, ...coefficients] }];
