@@ -119,9 +119,9 @@ void ExpectTagsAreFound(const Board& board, double largest_rms_px) {
   std::mt19937_64 generator = TestGenerator();
   const BoardDetector detector(board);
   Statistics all;
-  // Tags of some 110, 60 and 40 px, tilted ones 20 px high: modules of hardly more than the 2 px that it
+  // Tags of some 110, 60 and 50 px, tilted ones half as high: modules of no less than the 2 px that it
   // takes.
-  for (const double distance_m : {0.47, 0.82, 1.22}) {  // for a lens as long as the image is wide
+  for (const double distance_m : {0.47, 0.82, 1.0}) {  // for a lens as long as the image is wide
     Statistics statistics;
     for (int i = 0; i < kImages; ++i) {
       const double focal_length = i % 2 == 0 ? 0.86 : 0.6;  // every second lens is a wide one
