@@ -11,11 +11,11 @@ namespace {
 
 // Between a corner and the middle of its edge, the direction turns by half of the curvature: a lens of f =
 // 1000 px and k1 = -0.2 bends an edge at half the focal length from the middle of the image to a radius of
-// 5000 px.
-constexpr double kBend_per_px = 1 / 10000.0;
+// 5000 px. Most edges are bent less.
+constexpr double kBend_per_px = 1 / 12000.0;
 // What straight edges and a Gaussian blur leave of a real lens's image.
 constexpr double kModelSigma_px = 0.002;
-constexpr double kBlurSigma = 0.1;     // of the blur, over an image
+constexpr double kBlurSigma = 0.07;    // of the blur, over an image
 constexpr double kLeastNoise = 0.3;    // grey levels: that of rounding
 constexpr double kNoiseFreedoms = 40;  // that the noise of all corners is worth in one corner's
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 namespace legible {
@@ -81,8 +80,10 @@ Eigen::Vector2d HalfWidths_px(const CornerSite& site) {
   return (Pitches_px(site).array() - kept_off_px).max(kLeastHalfWidth_px).min(kLargestHalfWidth_px);
 }
 
+// Parallel edges too.
 bool IsTooSmall(const CornerSite& site) {
-  return Pitches_px(site).minCoeff() < (site.knows_beyond ? kLeastPitchKnown_px : kLeastPitchUnknown_px);
+  const double least_px = site.knows_beyond ? kLeastPitchKnown_px : kLeastPitchUnknown_px;
+  return !(Pitches_px(site).array() >= least_px).all();
 }
 
 struct WindowPixel {
@@ -339,7 +340,6 @@ CornerModel::Value CornerModel::At(const Eigen::Vector2d& pixel, const Parameter
 }
 
 CornerFit FitCorner(const GrayImage& image, const CornerSite& site, const CornerExpectations& expected) {
-  if (!(Pitches_px(site).minCoeff() > 0)) throw std::invalid_argument("FitCorner: the edges are parallel");
   CornerFit fit;
   fit.pixel = site.pixel;
   fit.status = CornerStatus::kTooSmall;

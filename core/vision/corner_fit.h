@@ -93,7 +93,7 @@ class CornerModel {
 };
 
 // Fits place, directions, blur, dark and light (Levenberg-Marquardt) in a window that keeps off the next
-// lines of the grid, of at most 7 px half width. The two edges must not be parallel (std::invalid_argument).
+// lines of the grid, of at most 7 px half width.
 CornerFit FitCorner(const GrayImage& image, const CornerSite& site, const CornerExpectations& expected = {});
 
 }  // namespace legible

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 #include "tests/core/vision/corner_scene.h"
 #include "tests/testing/derivatives.h"
@@ -103,7 +102,7 @@ TEST(FitCorner, SaysWhyThereIsNoCorner) {
   const GrayImage grey{33, 33, std::vector<std::uint8_t>(33 * 33, 100)};
   EXPECT_EQ(FitCorner(grey, SaddleSite()).status, CornerStatus::kNoContrast);
   site.edges_px[1] = 2 * site.edges_px[0];
-  EXPECT_THROW(FitCorner(image, site), std::invalid_argument);
+  EXPECT_EQ(FitCorner(image, site).status, CornerStatus::kTooSmall);  // parallel edges
 }
 
 }  // namespace
