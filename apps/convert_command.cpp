@@ -134,6 +134,7 @@ int ConvertRobot(const ConvertSettings& settings, const fs::path& file, const Co
 
 std::vector<std::string> ConvertTargets() {
   std::vector<std::string> names;
+  names.reserve(kFormats.size() + 1);
   for (const auto& [name, format] : kFormats) names.push_back(name);
   names.emplace_back(kLinuxCnc);
   return names;
