@@ -66,6 +66,7 @@ std::string ErrorText(const ConversionError& error) {
 
 std::string ErrorsText(const std::vector<ConversionError>& errors) {
   std::vector<std::string> texts;
+  texts.reserve(errors.size());
   for (const ConversionError& error : errors) texts.push_back(ErrorText(error));
   return fmt::format("{}", fmt::join(texts, "; "));
 }
@@ -115,6 +116,7 @@ int ConvertCamera(const ConvertSettings& settings, const fs::path& file, CameraF
                                    ErrorsText(exported.errors)));
   exported.left_behind.insert(exported.left_behind.end(), camera.left_behind.begin(),
                               camera.left_behind.end());
+  warnings.reserve(warnings.size() + exported.left_behind.size());
   for (const std::string& what : exported.left_behind)
     warnings.push_back(fmt::format("{} has no place for {}", NameOf(format), what));
   Write(settings, exported.text, console);
@@ -132,6 +134,7 @@ int ConvertRobot(const ConvertSettings& settings, const fs::path& file, const Co
 
 std::vector<std::string> ConvertTargets() {
   std::vector<std::string> names;
+  names.reserve(kFormats.size() + 1);
   for (const auto& [name, format] : kFormats) names.push_back(name);
   names.emplace_back(kLinuxCnc);
   return names;

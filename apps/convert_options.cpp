@@ -71,6 +71,13 @@ const CLI::App* AddConvertCommand(CLI::App& program, ConvertSettings& settings) 
         settings.unit = name == "inch" ? LengthUnit::kInch : LengthUnit::kMillimetre;
       },
       "Of the machine, for linuxcnc; mm without it");
+  command->parse_complete_callback([command, &settings] {
+    const bool is_robot = settings.to == "linuxcnc";
+    if (!is_robot && command->count("--unit") > 0)
+      throw CLI::ValidationError("--unit", "belongs to --to linuxcnc");
+    if (is_robot && command->count("--accept-error") > 0)
+      throw CLI::ValidationError("--accept-error", "belongs to cameras, not to --to linuxcnc");
+  });
   return command;
 }
 

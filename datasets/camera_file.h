@@ -32,7 +32,7 @@ CameraFile ReadCamera(const std::filesystem::path& file);
 
 // The text of a camera.yaml, which ReadCamera takes back to the same bits. Throws std::invalid_argument if a
 // number is not finite.
-std::string CameraInfoText(const CameraFile& camera);
+std::string CameraInfoText(const CameraFile& file);
 
 // Writes so that ReadCamera gives back the same bits and ROS reads it too. Throws InputError if the file
 // cannot be written and std::invalid_argument if a number is not finite.

@@ -1,5 +1,6 @@
 #include "core/geometry/nearest_camera.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>

@@ -20,6 +20,7 @@ std::vector<double> Coefficients(const Camera& camera, int count) {
 
 std::string Joined(const std::vector<double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(NumberText(value));
   return fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -92,6 +93,7 @@ std::string FloatText(double value) {
 
 std::string FloatList(const std::vector<double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(FloatText(value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
@@ -128,15 +130,14 @@ WayBack FindWayBack(const Camera& original, const Camera& visp) {
   constexpr int kSteps = 40;
   std::vector<std::array<Eigen::Vector2d, 3>>
       points;  // pixel, distorted by ViSP, undistorted by the original
-  for (int i = 0; i <= kSteps * (kSteps + 2); ++i) {
-    const Eigen::Vector2d pixel((i % (kSteps + 1)) * (visp.width_px - 1.0) / kSteps,
-                                (i / (kSteps + 1)) * (visp.height_px - 1.0) / kSteps);
-    if (const auto x = Unproject(original, pixel))
-      points.push_back(
-          {pixel,
-           Eigen::Vector2d((pixel.x() - visp.cx_px) / visp.fx_px, (pixel.y() - visp.cy_px) / visp.fy_px),
-           *x});
-  }
+  for (int row = 0; row <= kSteps; ++row)
+    for (int column = 0; column <= kSteps; ++column) {
+      const Eigen::Vector2d pixel(column * (visp.width_px - 1.0) / kSteps,
+                                  row * (visp.height_px - 1.0) / kSteps);
+      const Eigen::Vector2d distorted((pixel.x() - visp.cx_px) / visp.fx_px,
+                                      (pixel.y() - visp.cy_px) / visp.fy_px);
+      if (const auto x = Unproject(original, pixel)) points.push_back({pixel, distorted, *x});
+    }
   double product = 0, square = 0;
   for (const auto& [pixel, distorted, x] : points) {
     const Eigen::Vector2d cubic = distorted * distorted.squaredNorm();

@@ -134,6 +134,9 @@ TEST_F(Convert, BadInputIsOneLine) {
   refused(Run(folder_.path() / "nowhere", {"--to", "ros"}), "nowhere: ");
   refused(Run(camera, {"--to", "visp", "--accept-error", "-1"}), "--accept-error");
   refused(Run(camera, {"--to", "linuxcnc", "--unit", "ell"}), "--unit: \"ell\" is none of mm, inch");
+  refused(Run(camera, {"--to", "ros", "--unit", "mm"}), "--unit: belongs to --to linuxcnc");
+  refused(Run(folder_.path() / "robot.yaml", {"--to", "linuxcnc", "--accept-error", "1"}),
+          "--accept-error: belongs");
   refused(Run(folder_.Write("c.xml", "<root><camera></root>"), {"--to", "ros"}), "c.xml:1: is no XML");
 }
 
@@ -148,9 +151,10 @@ TEST_F(HexapodSession, ItsCameraMayBeAnotherToolsFile) {
   ExpectSame(again.camera, camera.camera);
   ASSERT_TRUE(again.camera_from_base.has_value());
   EXPECT_LT((again.camera_from_base->translation - camera.camera_from_base->translation).norm(), 1e-15);
-  // One without the camera's place leads to the message that there is for that.
+  // One without the camera's place, and no tags to say it, leads to the message that there is for that.
   folder_.Write("session/camera.yaml", RunLegible({"convert", session().string(), "--to", "kalibr"}).out);
   std::filesystem::remove(folder_.path() / "again.yaml");
+  Edit("session.yaml", "tags: tags.yaml\n", "");
   ExpectRefusal(RunOnIt(), HasSubstr("does not say where the camera is"));
 }
 

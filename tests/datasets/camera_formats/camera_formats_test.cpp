@@ -125,6 +125,7 @@ TEST(CameraFormats, OnlySomeHoldWhereTheCameraStands) {
 std::vector<Eigen::Vector2d> PixelsByOpenCv(const cv::Mat& k, const cv::Mat& coefficients, bool is_fisheye,
                                             const std::vector<Eigen::Vector2d>& points) {
   std::vector<cv::Point3d> in_camera;
+  in_camera.reserve(points.size());
   for (const Eigen::Vector2d& x : points) in_camera.emplace_back(x[0], x[1], 1);
   std::vector<cv::Point2d> pixels;
   const cv::Vec3d zero(0, 0, 0);
@@ -133,6 +134,7 @@ std::vector<Eigen::Vector2d> PixelsByOpenCv(const cv::Mat& k, const cv::Mat& coe
   else
     cv::projectPoints(in_camera, zero, zero, k, coefficients, pixels);
   std::vector<Eigen::Vector2d> result;
+  result.reserve(pixels.size());
   for (const cv::Point2d& pixel : pixels) result.emplace_back(pixel.x, pixel.y);
   return result;
 }
