@@ -106,10 +106,10 @@ LegCalibration Train(const LegCalibrationInput& input, const LegCalibration& sol
   return CalibrateLegs(training, options);
 }
 
-// The least motion of a point that moves its image by that: across the line of sight.
-double AcrossSight_m(const ProjectedPoint& projected, const Eigen::Vector2d& moved_px) {
-  return (projected.d_x.transpose() * (projected.d_x * projected.d_x.transpose()).inverse() * moved_px)
-      .norm();
+// The least motion of a point that moves its image by that, m, in two directions across the line of sight.
+Eigen::Vector2d AcrossSight(const ProjectedPoint& projected, const Eigen::Vector2d& moved_px) {
+  const Eigen::Matrix2d gram = projected.d_x * projected.d_x.transpose();
+  return gram.llt().matrixL().solve(moved_px);
 }
 
 // A group in one image, and where its carrier is there.
@@ -133,9 +133,10 @@ std::optional<GroupErrors> ErrorsOf(const Rigid3& carrier_from_group, const Came
       const Eigen::Vector3d x =
           one.camera_from_carrier * (carrier_from_group * one.sighting->corners_in_group_m[k]);
       if (x.z() <= 0) return std::nullopt;
-      const Eigen::Vector2d error = Project(camera, x) - one.sighting->corners_px[k];
-      errors.px.Add(error);
-      errors.metres.Add(error * x.z() / camera.fx_px);
+      const ProjectedPoint projected = ProjectWithJacobians(camera, x);
+      const Eigen::Vector2d error_px = projected.pixel - one.sighting->corners_px[k];
+      errors.px.Add(error_px);
+      errors.metres.Add(AcrossSight(projected, error_px));
     }
   }
   return errors;
