@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/intrinsics_layout.h"
 #include "apps/option_values.h"
 #include "calib/board/layout_check.h"
 #include "calib/board/neighbour_scatter.h"
@@ -80,6 +81,7 @@ void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {
     progress.Show(iteration == 0 ? stage : IterationText(iteration, rms_px));
   };
   run.result = CalibrateCamera(run.input, run.options);
+  if (run.result.status != BoardCalibrationStatus::kTooFewViews) DemandWholeBoard(run);
   DemandNoContradiction(run);
   if (run.result.status != BoardCalibrationStatus::kConverged) return;
   progress.Show("comparing two halves of the views");

@@ -10,11 +10,11 @@
 #include <memory>
 #include <set>
 
+#include "apps/intrinsics_layout.h"
 #include "apps/intrinsics_run.h"
 #include "core/vision/board_detection.h"
 #include "core/vision/gray_image.h"
 #include "datasets/board_file.h"
-#include "datasets/camera_file.h"
 #include "datasets/content_hash.h"
 #include "datasets/corner_file.h"
 #include "datasets/image_folder.h"
@@ -76,71 +76,6 @@ void DemandImagesOfOneSize(const std::vector<std::filesystem::path>& files, cons
   }
 }
 
-// "1, 2 and 5", at most some.
-std::string ListOf(const std::set<int>& numbers) {
-  constexpr size_t kMost = 8;
-  std::string text;
-  size_t count = 0;
-  for (const int number : numbers) {
-    if (count == kMost) return text + fmt::format(" … ({} in all)", numbers.size());
-    text += (count++ == 0 ? "" : ", ") + std::to_string(number);
-  }
-  return text;
-}
-
-// Tags of the board's family that its file does not have, in most images: its rows or columns are wrong.
-void DemandNoForeignTags(const IntrinsicsRun& run) {
-  std::map<std::string, int> images_of_tag;
-  int with_board = 0;
-  for (size_t i = 0; i < run.input.views.size(); ++i) {
-    if (run.input.views[i].corners.empty()) continue;
-    ++with_board;
-    for (const LeftOut& one : run.left_out[i])
-      if (one.points.empty()) ++images_of_tag[one.what];
-  }
-  std::string foreign;
-  for (const auto& [tag, images] : images_of_tag)
-    if (2 * images > with_board) foreign += (foreign.empty() ? "" : ", ") + tag;
-  if (foreign.empty()) return;
-  throw InputError(
-      run.settings.board, 0,
-      fmt::format("does not have {}, and most of the images that show the board show them", foreign),
-      "mend rows, columns, first_id or the list of tags");
-}
-
-// Tags that no image shows, while all others are there: a whole row or column too many.
-void DemandNoMissingTags(const IntrinsicsRun& run) {
-  if (!run.board.tags) return;
-  std::map<size_t, int> seen;
-  for (const BoardView& view : run.input.views)
-    for (const BoardCorner& corner : view.corners) ++seen[static_cast<size_t>(corner.point) / 4];
-  std::set<int> missing;
-  for (size_t i = 0; i < run.board.tags->tags.size(); ++i)
-    if (!seen.contains(i)) missing.insert(run.board.tags->tags[i].id);
-  constexpr size_t kFewest = 3;  // one may be dirty
-  if (seen.empty() || missing.size() < kFewest) return;
-  throw InputError(run.settings.board, 0,
-                   fmt::format("has the tags {}, and no image shows any of them", ListOf(missing)),
-                   "mend rows, columns or the list of tags, or show the whole board in some image");
-}
-
-// The last column or row of a chessboard without a corner in a whole file.
-void DemandAllLines(const IntrinsicsRun& run) {
-  if (!run.board.chessboard) return;
-  const Chessboard& board = *run.board.chessboard;
-  int columns = 0, rows = 0;
-  for (const BoardView& view : run.input.views)
-    for (const BoardCorner& corner : view.corners) {
-      columns = std::max(columns, corner.point % board.columns + 1);
-      rows = std::max(rows, corner.point / board.columns + 1);
-    }
-  if (columns == 0 || (columns == board.columns && rows == board.rows)) return;
-  throw InputError(run.settings.board, 0,
-                   fmt::format("has {} columns and {} rows of corners, and {} has {} and {}", board.columns,
-                               board.rows, run.settings.corners->string(), columns, rows),
-                   "mend columns and rows, or take them from the board itself");
-}
-
 void AddImages(IntrinsicsRun& run, const std::vector<std::filesystem::path>& files, ProgressLine& progress) {
   const std::vector<Found> found = FindBoard(run.board, files, run.settings.threads, progress);
   DemandImagesOfOneSize(files, found);
@@ -200,9 +135,7 @@ IntrinsicsRun LoadViews(const IntrinsicsSettings& settings, ProgressLine& progre
     AddCorners(run);
   else
     AddImages(run, files, progress);
-  DemandNoForeignTags(run);
-  DemandNoMissingTags(run);
-  if (settings.corners) DemandAllLines(run);
+  DemandAgreement(run);
   files.insert(files.begin(), settings.board);
   if (settings.corners) files.push_back(*settings.corners);
   run.content_hash = ContentHash(files);

@@ -15,6 +15,7 @@ struct LeftOut {
   std::string reason;                    // goes on: "is not among the board's tags"
   std::vector<int> points;               // of PointsOf(board) that are missing by it; none for a foreign tag
   std::optional<Eigen::Vector2d> pixel;  // where it is, or ought to be
+  bool contradicts = false;              // it was read, and is not where the board has it
 };
 
 struct BoardSighting {

@@ -173,9 +173,11 @@ TagBoardDetector::Reading TagBoardDetector::Agreeing(const std::vector<ReadTag>&
   for (const size_t i : agreeing)
     if (tags.insert(read[i].tag).second) reading.tags.push_back(read[i]);
   for (size_t i = 0; i < read.size(); ++i)
-    if (!std::binary_search(agreeing.begin(), agreeing.end(), i))
+    if (!std::binary_search(agreeing.begin(), agreeing.end(), i)) {
       reading.left_out.push_back(Named(
           read[i], "contradicts where the other tags predict it: another tag or pattern was read as it"));
+      reading.left_out.back().contradicts = true;
+    }
   return reading;
 }
 

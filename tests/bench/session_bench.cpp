@@ -9,6 +9,7 @@
 #include "calib/session_calibration.h"
 #include "datasets/session_file.h"
 #include "tests/bench/bench_table.h"
+#include "tests/testing/board_of_camera.h"
 #include "tests/testing/fresh_poses.h"
 #include "tests/testing/rendered_truth.h"
 
@@ -42,10 +43,30 @@ double NormalisedError(const LegCalibration& found, const RenderedTruth& truth) 
   return std::sqrt(squares / (4 + 4 * kLegCount));
 }
 
-BenchTable::Row RowOf(const std::string& folder) {
-  const Session session = ReadSession(folder);
+// Of the coordinates of the base joints in the camera frame, root mean square.
+double BaseJointSigma_mm(const LegCalibration& found) {
+  const ModelCovariance covariance = CovarianceOfModel(found);
+  double squares = 0;
+  for (int leg = 0; leg < kLegCount; ++leg)
+    squares += SigmaOfLeg(found, covariance, leg).base_joint_in_camera_m.squaredNorm() / (3 * kLegCount);
+  return 1e3 * std::sqrt(squares);
+}
+
+enum class BoardUse { kNone, kInformation, kTogether };
+
+BenchTable::Row RowOf(const std::string& folder, BoardUse use) {
+  Session session = ReadSession(folder);
   const RenderedTruth truth = ReadRenderedTruth(folder + "/truth.json");
-  const SessionCalibration found = CalibrateSession(session, {});
+  SessionCalibrationOptions options;
+  options.lens = truth.camera.lens;
+  if (use != BoardUse::kNone) {
+    const CameraByBoard board = CalibrateByRenderedBoard(truth.camera, 24);
+    session.camera = board.result.camera;
+    if (use == BoardUse::kInformation)
+      session.known.camera_information = board.result.information.information;
+    if (use == BoardUse::kTogether) options.board = SolvedProblem(board.input, board.result, board.options);
+  }
+  const SessionCalibration found = CalibrateSession(session, options);
   if (found.calibration.status != CalibrationStatus::kConverged)
     throw std::runtime_error(folder + ": " + found.calibration.message);
   const auto error = [&](const GoughStewart& model) {
@@ -54,13 +75,15 @@ BenchTable::Row RowOf(const std::string& folder) {
   };
   const PoseError drawn = error(session.robot),
                   calibrated = error(LaidOnto(truth.robot, found.calibration.robot));
-  return {session.folder.filename().string(),
+  const char* const uses[] = {"", ", its board's information", ", solved with the board"};
+  return {session.folder.filename().string() + uses[static_cast<int>(use)],
           {{"images", static_cast<double>(session.images.size())},
            {"position_mm", 1e3 * calibrated.position_m},
            {"times_better", drawn.position_m / calibrated.position_m},
            {"rotation_mrad", 1e3 * calibrated.rotation_rad},
            {"times_better_rotation", drawn.rotation_rad / calibrated.rotation_rad},
            {"error_in_sigmas", NormalisedError(found.calibration, truth)},
+           {"sigma_of_A_in_camera_mm", BaseJointSigma_mm(found.calibration)},
            {"held_out_px", found.held_out_rms_px.value_or(std::nan(""))},
            {"solve_s", found.times.solve_s + found.times.covariance_s},
            {"total_s", found.times.total_s}}};
@@ -68,7 +91,9 @@ BenchTable::Row RowOf(const std::string& folder) {
 
 BenchTable Sessions() {
   BenchTable table{"poses from joint readings alone, calibrated against drawn, in 300 fresh poses", {}};
-  for (const std::string& folder : Folders()) table.rows.push_back(RowOf(folder));
+  for (const std::string& folder : Folders())
+    for (const BoardUse use : {BoardUse::kNone, BoardUse::kInformation, BoardUse::kTogether})
+      table.rows.push_back(RowOf(folder, use));
   return table;
 }
 

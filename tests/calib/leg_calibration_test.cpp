@@ -6,11 +6,13 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "calib/board/board_calibration.h"
 #include "calib/calibrated_model.h"
 #include "tests/calib/synthetic_tags.h"
 #include "tests/calib/truth_problem.h"
 #include "tests/testing/matrices.h"
 #include "tests/testing/random.h"
+#include "tests/testing/synthetic_board.h"
 
 namespace legible {
 namespace {
@@ -363,6 +365,47 @@ TEST(ToModel, ListsTheCovarianceOfWhatWasEstimatedOnly) {
   EXPECT_EQ(model.parameter_names.back(), "camera_from_base.rotation_rad.z");
   ASSERT_EQ(model.covariance.rows(), static_cast<Eigen::Index>(model.parameter_names.size()));
   EXPECT_GT(model.covariance.diagonal().minCoeff(), 0);
+}
+
+// --- A board seen by the same camera. --------------------------------------------------------------------
+
+// What a board tells enters as its information or is solved together with the legs: where the board tells
+// much and the legs are as linear as here, that is the same.
+TEST(CalibrateLegs, TakesABoardAsItsInformationOrSolvesItTogether) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  std::mt19937_64 generator = TestGenerator();
+  const std::vector<Eigen::Vector3d> points = PointsOf(DeskChessboard());
+  const BoardCalibrationInput seen = {
+      points, SeeBoard(generator, session.true_camera, points, {.views = 20, .noise_px = 0.05}).views,
+      session.true_camera.width_px, session.true_camera.height_px};
+  const BoardCalibrationOptions options{.lens = session.true_camera.lens};
+  const BoardCalibration board = CalibrateCamera(seen, options);
+  ASSERT_EQ(board.status, BoardCalibrationStatus::kConverged) << board.message;
+
+  LegCalibrationInput input = InputOf(session, session.observations);
+  const LegCalibration alone = CalibrateLegs(input, {});
+  input.camera = board.camera;
+  input.known.camera_information = board.information.information;
+  const LegCalibration informed = CalibrateLegs(input, {});
+  input.known.camera_information.resize(0, 0);
+  input.board = SolvedProblem(seen, board, options);
+  const LegCalibration together = CalibrateLegs(input, {});
+  for (const LegCalibration* found : {&alone, &informed, &together})
+    ASSERT_EQ(found->status, CalibrationStatus::kConverged) << found->message;
+  const CameraParameters sigma = SigmaOfCamera(informed);
+  for (int i = 0; i < 4 + static_cast<int>(session.true_camera.lens); ++i) {
+    EXPECT_LT(sigma[i], 0.5 * SigmaOfCamera(alone)[i]) << i;
+    EXPECT_NEAR(SigmaOfCamera(together)[i] / sigma[i], 1, 0.01) << i;
+    EXPECT_NEAR(ParametersOf(together.camera)[i], ParametersOf(informed.camera)[i], 0.1 * sigma[i]) << i;
+    EXPECT_NEAR(ParametersOf(informed.camera)[i], ParametersOf(session.true_camera)[i], 4 * sigma[i]) << i;
+  }
+}
+
+TEST(CalibrateLegs, RefusesABoardSeenThroughAnotherLensModel) {
+  const SyntheticSession session = GenerateSession(FewImages());
+  LegCalibrationInput input = InputOf(session, session.observations);
+  input.board = BoardProblem{BoardCamera(LensModel::kFisheye), {}, {}, false};
+  EXPECT_THROW(CalibrateLegs(input, {}), std::invalid_argument);
 }
 
 }  // namespace

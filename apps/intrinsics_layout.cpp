@@ -1,0 +1,130 @@
+#include "apps/intrinsics_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "calib/board/layout_check.h"
+#include "core/vision/gray_image.h"
+#include "core/vision/tags.h"
+#include "datasets/input_error.h"
+
+namespace legible {
+namespace {
+
+constexpr double kManyContradict = 0.25;  // of the tags that were found and agree
+
+// The images' tags wherever they are, without a word from the board's file but its family and its ids.
+BoardCalibrationInput TagsAsTheyAre(const IntrinsicsRun& run) {
+  const TagBoard& board = run.board.tags.value();
+  std::map<int, int> index_of_id;
+  for (size_t i = 0; i < board.tags.size(); ++i) index_of_id[board.tags[i].id] = static_cast<int>(i);
+  const TagDetector detector(board.family, {.decimation = 1, .border_bits = board.border_bits});
+  BoardCalibrationInput input = run.input;
+  for (BoardView& view : input.views) {
+    view.corners.clear();
+    const auto image = ReadGrayImage(view.file);
+    if (!image) continue;
+    for (const TagDetection& detection : detector.Detect(*image)) {
+      const auto index = index_of_id.find(detection.id);
+      for (int corner = 0; index != index_of_id.end() && corner < 4; ++corner)
+        view.corners.push_back({4 * index->second + corner, detection.corners_px[static_cast<size_t>(corner)],
+                                Eigen::Matrix2d::Identity()});
+    }
+  }
+  return input;
+}
+
+void DemandNoContradictions(const IntrinsicsRun& run) {
+  if (!run.board.tags || run.settings.corners) return;
+  double contradicting = 0, found = 0;
+  for (size_t i = 0; i < run.left_out.size(); ++i) {
+    contradicting += static_cast<double>(std::count_if(run.left_out[i].begin(), run.left_out[i].end(),
+                                                       [](const LeftOut& one) { return one.contradicts; }));
+    found += static_cast<double>(run.input.views[i].corners.size()) / 4;
+  }
+  if (contradicting <= kManyContradict * found) return;
+  throw InputError(run.settings.board, 0, "does not describe the board in the images",
+                   WhyNotFlat(run.board, TagsAsTheyAre(run)));
+}
+
+// "1, 2 and 5", at most some.
+std::string ListOf(const std::set<int>& numbers) {
+  constexpr size_t kMost = 8;
+  std::string text;
+  size_t count = 0;
+  for (const int number : numbers) {
+    if (count == kMost) return text + fmt::format(" … ({} in all)", numbers.size());
+    text += (count++ == 0 ? "" : ", ") + std::to_string(number);
+  }
+  return text;
+}
+
+// Tags of the board's family that its file does not have, in most images: its rows or columns are wrong.
+void DemandNoForeignTags(const IntrinsicsRun& run) {
+  std::map<std::string, int> images_of_tag;
+  int with_board = 0;
+  for (size_t i = 0; i < run.input.views.size(); ++i) {
+    if (run.input.views[i].corners.empty()) continue;
+    ++with_board;
+    for (const LeftOut& one : run.left_out[i])
+      if (one.points.empty()) ++images_of_tag[one.what];
+  }
+  std::string foreign;
+  for (const auto& [tag, images] : images_of_tag)
+    if (2 * images > with_board) foreign += (foreign.empty() ? "" : ", ") + tag;
+  if (foreign.empty()) return;
+  throw InputError(
+      run.settings.board, 0,
+      fmt::format("does not have {}, and most of the images that show the board show them", foreign),
+      "mend rows, columns, first_id or the list of tags");
+}
+
+// Tags that no image shows, while all others are there: a whole row or column too many.
+void DemandNoMissingTags(const IntrinsicsRun& run) {
+  if (!run.board.tags) return;
+  std::map<size_t, int> seen;
+  for (const BoardView& view : run.input.views)
+    for (const BoardCorner& corner : view.corners) ++seen[static_cast<size_t>(corner.point) / 4];
+  std::set<int> missing;
+  for (size_t i = 0; i < run.board.tags->tags.size(); ++i)
+    if (!seen.contains(i)) missing.insert(run.board.tags->tags[i].id);
+  constexpr size_t kFewest = 3;  // one may be dirty
+  if (seen.empty() || missing.size() < kFewest) return;
+  throw InputError(run.settings.board, 0,
+                   fmt::format("has the tags {}, and no image shows any of them", ListOf(missing)),
+                   "mend rows, columns or the list of tags, or show the whole board in some image");
+}
+
+// The last column or row of a chessboard without a corner in a whole file.
+void DemandAllLines(const IntrinsicsRun& run) {
+  if (!run.board.chessboard) return;
+  const Chessboard& board = *run.board.chessboard;
+  int columns = 0, rows = 0;
+  for (const BoardView& view : run.input.views)
+    for (const BoardCorner& corner : view.corners) {
+      columns = std::max(columns, corner.point % board.columns + 1);
+      rows = std::max(rows, corner.point / board.columns + 1);
+    }
+  if (columns == 0 || (columns == board.columns && rows == board.rows)) return;
+  throw InputError(run.settings.board, 0,
+                   fmt::format("has {} columns and {} rows of corners, and {} has {} and {}", board.columns,
+                               board.rows, run.settings.corners->string(), columns, rows),
+                   "mend columns and rows, or take them from the board itself");
+}
+
+}  // namespace
+
+void DemandAgreement(const IntrinsicsRun& run) {
+  DemandNoForeignTags(run);
+  DemandNoContradictions(run);
+}
+
+void DemandWholeBoard(const IntrinsicsRun& run) {
+  DemandNoMissingTags(run);
+  if (run.settings.corners) DemandAllLines(run);
+}
+
+}  // namespace legible
