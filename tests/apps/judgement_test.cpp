@@ -90,7 +90,7 @@ TEST(Warnings, SayOneSentenceForEachFinding) {
        }},
       {"the tags board lie 2.0 px (1.00 mm)",
        [](auto& run) {
-         run.result.tag_checks = {{"board", false, false, 12, 2, 1e-3}};
+         run.result.tag_checks = {{"board", false, false, false, 12, 2, 1e-3}};
        }},
       {"the tags board are 5.0 σ",
        [](auto& run) {
