@@ -41,6 +41,17 @@ void DemandPlaceOfCamera(const Session& session) {
                    "give camera_from_base (a tape measure will do), or tags on the base");
 }
 
+// What is said of the camera beside a board would count twice.
+void DemandCameraToldOnce(const CalibrateSettings& settings, const Session& session) {
+  const PriorKnowledge& known = session.known;
+  const bool has_board = settings.board || known.camera_information.size() > 0;
+  const bool says_more = known.focal_length_px || known.principal_point_px || known.distortion;
+  if (has_board && says_more)
+    throw InputError(session.files.at(0), 0,
+                     "or --known says how well the camera is known, and so does a board",
+                     "take focal_length_px, principal_point_px and distortion out, or the board");
+}
+
 // What a board told of one lens says nothing of another's coefficients.
 void DemandLensOfBoard(const CalibrateSettings& settings, const Session& session) {
   if (session.known.camera_information.size() == 0 || !settings.lens || *settings.lens == session.camera.lens)
@@ -109,6 +120,7 @@ CalibrationRun Load(const CalibrateSettings& settings, ProgressLine& progress) {
   DemandSomeImage(run.session);
   run.session.known = WithSettings(run.session.known, settings);
   DemandLensOfBoard(settings, run.session);
+  DemandCameraToldOnce(settings, run.session);
   try {
     run.options = ToOptions(settings, run.session);
   } catch (const std::invalid_argument& error) {

@@ -52,7 +52,9 @@ std::string TagSentence(const Session& session, const TagCheck& check) {
       "place on it fitted{}{}",
       check.group, on_platform ? "platform" : "base", check.images, check.held_out ? " held out" : "",
       1e3 * check.rms_m, check.rms_px, predicted, check.held_out ? " to the others" : "",
-      check.took_part ? " (they took part in the estimate)" : "");
+      check.took_part ? " (they took part in the estimate)"
+      : !on_platform  ? " (they and the camera stand still: that tells how well they are found)"
+                      : "");
 }
 
 std::string TagFitSentence(const LegCalibration& calibration, const TagGroupFit& fit) {

@@ -49,8 +49,13 @@ struct CameraToConvert {
   std::vector<std::string> left_behind;  // beside the camera
 };
 
-CameraToConvert ReadCameraToConvert(const fs::path& file) {
-  if (!HoldsRobot(file)) return {ReadCamera(file), {}};
+CameraToConvert ReadCameraToConvert(const fs::path& file, const std::string& to) {
+  if (!HoldsRobot(file)) {
+    CameraToConvert camera{ReadCamera(file), {}};
+    if (camera.file.information.size() > 0 && to != "ros")
+      camera.left_behind.emplace_back("how well a board has told the camera");
+    return camera;
+  }
   const CalibratedModel model = ReadModel(file);
   if (!model.camera)
     throw InputError(file, 0, "has no camera", "give the model.yaml of a calibration, or a camera");
@@ -103,7 +108,7 @@ void Write(const ConvertSettings& settings, const std::string& text, const Conso
 
 int ConvertCamera(const ConvertSettings& settings, const fs::path& file, CameraFormat format,
                   const Console& console) {
-  const CameraToConvert camera = ReadCameraToConvert(file);
+  const CameraToConvert camera = ReadCameraToConvert(file, settings.to);
   const bool is_xml = settings.out && settings.out->extension() == ".xml";
   ExportedCamera exported = ExportCamera(camera.file, format, is_xml ? OpenCvText::kXml : OpenCvText::kYaml);
   if (LargestError(exported.errors) > settings.accepted_error_px) {

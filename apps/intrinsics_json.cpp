@@ -82,7 +82,7 @@ void AddFit(const IntrinsicsRun& run, ordered_json& json) {
   const BoardCalibration& result = run.result;
   const auto neighbours_px = run.NeighbourSigma_px();
   json["rms_px"] = result.rms_px;
-  json["noise_px"] = result.CornerSigma_px();
+  json["noise_px"] = result.corner_sigma_px;
   json["neighbour_noise_px"] = neighbours_px ? ordered_json(*neighbours_px) : ordered_json();
   json["views_used"] = ViewsUsed(result);
   json["views_left_out"] = ViewsLeftOut(run);
@@ -90,6 +90,7 @@ void AddFit(const IntrinsicsRun& run, ordered_json& json) {
   for (const ViewFit& view : result.views) corners += static_cast<int>(view.weight.size());
   json["corners_used"] = corners - result.corners_left_out;
   json["corners_left_out"] = result.corners_left_out;
+  json["corners_not_measured"] = CornersNotMeasured(run);
   json["corners_weighed_down"] = CornersWeighedDown(result);
   json["board_warp_m"] = run.settings.estimates_warp ? List(result.warp.bend_m) : ordered_json();
 }

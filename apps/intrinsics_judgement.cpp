@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/calibrate_settings.h"
 #include "apps/wording.h"
 
 namespace legible {
@@ -48,7 +49,7 @@ std::string SideText(double direction_rad) {
 void AddLensWarnings(const IntrinsicsRun& run, std::vector<std::string>& warnings) {
   if (run.halves.HasMisfit()) warnings.push_back(HalvesSentence(run));
   const auto neighbours_px = run.NeighbourSigma_px();
-  const double sigma_px = run.result.CornerSigma_px();
+  const double sigma_px = run.result.corner_sigma_px;
   if (neighbours_px && sigma_px > kSmoothMisfit * *neighbours_px)
     warnings.push_back(fmt::format(
         "corners lie {:.3g} px from where the model has them, neighbours {:.3g} px from each other: what the "
@@ -56,11 +57,41 @@ void AddLensWarnings(const IntrinsicsRun& run, std::vector<std::string>& warning
         sigma_px, *neighbours_px, run.settings.estimates_warp ? "" : " (--board-warp tells)"));
 }
 
+// Coefficients that are not known to anything like their own size are a lens that needs fewer.
+void AddCoefficientWarning(const IntrinsicsRun& run, std::vector<std::string>& warnings) {
+  constexpr double kUnknownCoefficient = 1;  // of 1 it moves a corner by its own distance from the centre
+  const Eigen::VectorXd variances = run.result.information.CameraCovariance().diagonal();
+  const Eigen::Index coefficients = variances.size() - 4;
+  if (coefficients == 0 || !(std::sqrt(variances.tail(coefficients).maxCoeff()) > kUnknownCoefficient))
+    return;
+  warnings.push_back(
+      fmt::format("the coefficients of the {} lens are not told apart by these views, and whether it "
+                  "fits is not tested by them: take a lens with fewer",
+                  LensName(run.settings.lens)));
+}
+
+// What is found in images has sigmas of its own.
+void AddNoiseWarning(const IntrinsicsRun& run, std::vector<std::string>& warnings) {
+  constexpr double kManyTimes = 4;
+  if (run.settings.corners || run.result.noise_factor < kManyTimes) return;
+  warnings.push_back(
+      fmt::format("corners lie {:.2g} times as far from where the model has them as the images let "
+                  "them scatter: the board is bent, or not as its file says, or the lens model is poor",
+                  run.result.noise_factor));
+}
+
 }  // namespace
 
 int ViewsUsed(const BoardCalibration& result) {
   return static_cast<int>(std::count_if(result.views.begin(), result.views.end(),
                                         [](const ViewFit& view) { return view.left_out.empty(); }));
+}
+
+int CornersNotMeasured(const IntrinsicsRun& run) {
+  size_t count = 0;
+  for (const auto& of_view : run.left_out)
+    for (const LeftOut& part : of_view) count += part.points.size();
+  return static_cast<int>(count);
 }
 
 int CornersWeighedDown(const BoardCalibration& result) {
@@ -75,7 +106,14 @@ std::vector<std::string> Warnings(const IntrinsicsRun& run) {
   std::vector<std::string> warnings;
   if (run.result.status != BoardCalibrationStatus::kConverged) return warnings;
   AddLensWarnings(run, warnings);
+  AddNoiseWarning(run, warnings);
+  AddCoefficientWarning(run, warnings);
   const int views = ViewsUsed(run.result), corners = CornersSeen(run);
+  if (run.result.distinct_views < views)
+    warnings.push_back(
+        fmt::format("{} of {} views show the board where another does: they count as if each had its "
+                    "own noise, and the uncertainty is told too small",
+                    views - run.result.distinct_views, views));
   if (views < kFewViews)
     warnings.push_back(
         fmt::format("only {}: one or two decide; take {} or more", Plural(views, "view"), kFewViews));

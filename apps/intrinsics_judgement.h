@@ -25,6 +25,9 @@ std::string BoardText(const Board& board);
 // "at the boards' distance (0.71 m)", "infinitely far away".
 std::string DistanceText(const IntrinsicsRun& run, double distance_m);
 
+// Of the board, in sight or expected to be, by the detection or by the file of corners.
+int CornersNotMeasured(const IntrinsicsRun& run);
+
 int ViewsUsed(const BoardCalibration& result);
 int CornersWeighedDown(const BoardCalibration& result);  // weights between 0 and 1
 

@@ -15,6 +15,7 @@ namespace legible {
 namespace {
 
 constexpr double kManyContradict = 0.25;  // of the tags that were found and agree
+constexpr int kMostNamed = 8;
 
 // The images' tags wherever they are, without a word from the board's file but its family and its ids.
 BoardCalibrationInput TagsAsTheyAre(const IntrinsicsRun& run) {
@@ -52,17 +53,28 @@ void DemandNoContradictions(const IntrinsicsRun& run) {
 
 // "1, 2 and 5", at most some.
 std::string ListOf(const std::set<int>& numbers) {
-  constexpr size_t kMost = 8;
   std::string text;
-  size_t count = 0;
+  int count = 0;
   for (const int number : numbers) {
-    if (count == kMost) return text + fmt::format(" … ({} in all)", numbers.size());
+    if (count == kMostNamed) return text + fmt::format(" … ({} in all)", numbers.size());
     text += (count++ == 0 ? "" : ", ") + std::to_string(number);
   }
   return text;
 }
 
-// Tags of the board's family that its file does not have, in most images: its rows or columns are wrong.
+// Whether a tag is among the board's: no farther from one of them than these are large.
+bool IsBeside(const Eigen::Vector2d& pixel, const std::vector<BoardCorner>& corners) {
+  return std::any_of(corners.begin(), corners.end(), [&](const BoardCorner& corner) {
+    const auto next = std::find_if(corners.begin(), corners.end(), [&](const BoardCorner& other) {
+      return other.point != corner.point && other.point / 4 == corner.point / 4;
+    });
+    if (next == corners.end()) return false;
+    return (pixel - corner.pixel).norm() < 1.5 * (next->pixel - corner.pixel).norm();
+  });
+}
+
+// Tags of the board's family that its file does not have, beside its own in most images: its rows or columns
+// are wrong. (Tags elsewhere may be the robot's.)
 void DemandNoForeignTags(const IntrinsicsRun& run) {
   std::map<std::string, int> images_of_tag;
   int with_board = 0;
@@ -70,32 +82,36 @@ void DemandNoForeignTags(const IntrinsicsRun& run) {
     if (run.input.views[i].corners.empty()) continue;
     ++with_board;
     for (const LeftOut& one : run.left_out[i])
-      if (one.points.empty()) ++images_of_tag[one.what];
+      if (one.points.empty() && one.pixel && IsBeside(*one.pixel, run.input.views[i].corners))
+        ++images_of_tag[one.what];
   }
   std::string foreign;
+  int count = 0;
   for (const auto& [tag, images] : images_of_tag)
-    if (2 * images > with_board) foreign += (foreign.empty() ? "" : ", ") + tag;
+    if (2 * images > with_board && ++count <= kMostNamed) foreign += (foreign.empty() ? "" : ", ") + tag;
   if (foreign.empty()) return;
   throw InputError(
       run.settings.board, 0,
-      fmt::format("does not have {}, and most of the images that show the board show them", foreign),
+      fmt::format("does not have {}{}, and most of the images that show the board show them beside it",
+                  foreign, count > kMostNamed ? fmt::format(" … ({} in all)", count) : ""),
       "mend rows, columns, first_id or the list of tags");
 }
 
-// Tags that no image shows, while all others are there: a whole row or column too many.
+// The last tags of the board that no image shows: a row too many. (Others may be hidden by what holds it.)
 void DemandNoMissingTags(const IntrinsicsRun& run) {
   if (!run.board.tags) return;
-  std::map<size_t, int> seen;
+  std::set<int> seen, missing;
   for (const BoardView& view : run.input.views)
-    for (const BoardCorner& corner : view.corners) ++seen[static_cast<size_t>(corner.point) / 4];
-  std::set<int> missing;
-  for (size_t i = 0; i < run.board.tags->tags.size(); ++i)
-    if (!seen.contains(i)) missing.insert(run.board.tags->tags[i].id);
+    for (const BoardCorner& corner : view.corners)
+      seen.insert(run.board.tags->tags[static_cast<size_t>(corner.point) / 4].id);
+  for (const Tag& tag : run.board.tags->tags)
+    if (!seen.contains(tag.id)) missing.insert(tag.id);
   constexpr size_t kFewest = 3;  // one may be dirty
-  if (seen.empty() || missing.size() < kFewest) return;
+  const bool are_last = !seen.empty() && !missing.empty() && *missing.begin() > *seen.rbegin();
+  if (missing.size() < kFewest || !are_last) return;
   throw InputError(run.settings.board, 0,
                    fmt::format("has the tags {}, and no image shows any of them", ListOf(missing)),
-                   "mend rows, columns or the list of tags, or show the whole board in some image");
+                   "mend rows or the list of tags, or show the whole board in some image");
 }
 
 // The last column or row of a chessboard without a corner in a whole file.

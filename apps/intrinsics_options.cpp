@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -69,11 +69,17 @@ void AddInputOptions(CLI::App& command, IntrinsicsSettings& settings) {
       command, "--image-size", "WxH",
       [&settings](const std::string& text) { settings.image_size_px = ParseSize(text); },
       "Of the images that the corners are from, in px");
-  command
-      .add_option("--guess", settings.guess,
-                  "Camera file or focal length in px to start from\nas well; none is needed, and one that is "
-                  "hopeless is\nrefused")
-      ->type_name("FILE|PX");
+  AddText(
+      command, "--guess", "FILE|PX",
+      [&settings](const std::string& text) {
+        settings.guess = text;
+        char* end = nullptr;
+        std::strtod(text.c_str(), &end);
+        if (end != text.c_str() && *end == '\0') settings.guessed_focal_length_px = ParsePositive(text);
+      },
+      "Focal length in px, or camera file of which that\ncounts, to start from as well; none is needed, "
+      "and\none "
+      "that is hopeless is refused");
 }
 
 void AddModelOptions(CLI::App& command, IntrinsicsSettings& settings) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "apps/intrinsics_layout.h"
-#include "apps/option_values.h"
 #include "calib/board/layout_check.h"
 #include "calib/board/neighbour_scatter.h"
 #include "core/vision/median.h"
@@ -21,9 +20,8 @@ constexpr int kCoverageColumns = 12, kCoverageRows = 9;
 constexpr int kCoarseColumns = 12, kCoarseRows = 9;  // where each place costs a sum over candidates
 
 Camera GuessOf(const IntrinsicsSettings& settings, const BoardCalibrationInput& input) {
-  const std::string& text = *settings.guess;
-  try {
-    const double focal_px = ParsePositive(text);
+  if (settings.guessed_focal_length_px) {
+    const double focal_px = *settings.guessed_focal_length_px;
     return {input.width_px,
             input.height_px,
             focal_px,
@@ -32,9 +30,28 @@ Camera GuessOf(const IntrinsicsSettings& settings, const BoardCalibrationInput& 
             0.5 * (input.height_px - 1),
             settings.lens,
             Distortion::Zero()};
-  } catch (const std::invalid_argument&) {
-    return ReadCamera(text).camera;
   }
+  const Camera camera = ReadCamera(*settings.guess).camera;
+  if (camera.width_px != input.width_px || camera.height_px != input.height_px)
+    throw InputError(*settings.guess, 0,
+                     fmt::format("is a camera of {} x {} px, and the images have {} x {}", camera.width_px,
+                                 camera.height_px, input.width_px, input.height_px),
+                     "leave --guess out, for none is needed, or give one of this camera");
+  return camera;
+}
+
+// A ratio of size and distances that is wrong by little leaves an estimate, but a wrong one.
+void DemandTagSize(const IntrinsicsRun& run) {
+  constexpr double kTolerance = 0.015;
+  if (!run.board.tags) return;
+  const auto factor = TagSizeFactor(*run.board.tags, run.input);
+  if (!factor || std::abs(*factor - 1) <= kTolerance) return;
+  throw InputError(
+      run.settings.board, 0,
+      fmt::format("has tags of a size that the images contradict: they are {:.3f} times as large, "
+                  "against their distances",
+                  *factor),
+      "measure the black square and the space between two, and mend the file");
 }
 
 double MedianDistance_m(const BoardCalibration& result) {
@@ -49,6 +66,7 @@ void DemandNoContradiction(const IntrinsicsRun& run) {
   if (run.result.status == BoardCalibrationStatus::kNotFlat)
     throw InputError(run.settings.board, 0, "does not describe the board in the images",
                      WhyNotFlat(run.board, run.input));
+  DemandTagSize(run);
   if (run.result.status == BoardCalibrationStatus::kHopelessGuess)
     throw InputError(*run.settings.guess, 0, "is no start for these images: " + run.result.message,
                      "leave --guess out, for none is needed, or mend it");
@@ -68,7 +86,7 @@ void WorkOutUncertainty(IntrinsicsRun& run) {
 
 std::optional<double> IntrinsicsRun::NeighbourSigma_px() const {
   if (!neighbour_scatter) return std::nullopt;
-  return result.CornerSigma_px() * *neighbour_scatter / result.noise_factor;
+  return result.corner_sigma_px * *neighbour_scatter / result.noise_factor;
 }
 
 void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {

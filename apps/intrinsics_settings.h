@@ -20,8 +20,9 @@ struct IntrinsicsSettings {
   LensModel lens = LensModel::kBrownConrady;
   bool estimates_warp = false;
   bool trusts_all = false;
-  std::optional<std::string> guess;  // a camera file, or a focal length in px
-  std::vector<double> distances_m;   // of the maps; none: the boards', three times that and infinity
+  std::optional<std::string> guess;               // as it was typed: a camera file, or a focal length
+  std::optional<double> guessed_focal_length_px;  // where it is a number
+  std::vector<double> distances_m;  // of the maps; none: the boards', three times that and infinity
   bool prints_json = false;
   bool embeds_pictures = true;
   int threads = 2;

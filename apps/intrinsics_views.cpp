@@ -37,6 +37,10 @@ std::vector<std::filesystem::path> ImageFiles(const std::vector<std::filesystem:
     if (names.empty()) throw InputError(path, 0, "no image in this folder", "name a folder of images");
     for (const std::string& name : names) files.push_back(path / name);
   }
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& file : files)
+    if (!seen.insert(std::filesystem::weakly_canonical(file)).second)
+      throw InputError(file, 0, "is named twice, and would count twice", "name it once");
   return files;
 }
 
@@ -92,8 +96,10 @@ void AddImages(IntrinsicsRun& run, const std::vector<std::filesystem::path>& fil
 }
 
 void AddCorners(IntrinsicsRun& run) {
-  run.input.views = ReadCorners(*run.settings.corners, run.board, run.settings.trusts_all);
-  run.left_out.resize(run.input.views.size());
+  for (ReadView& read : ReadCorners(*run.settings.corners, run.board, run.settings.trusts_all)) {
+    run.input.views.push_back(std::move(read.view));
+    run.left_out.push_back(std::move(read.left_out));
+  }
   std::tie(run.input.width_px, run.input.height_px) = *run.settings.image_size_px;
   for (const BoardView& view : run.input.views)
     for (const BoardCorner& corner : view.corners) {

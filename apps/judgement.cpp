@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "apps/intrinsics_judgement.h"
 #include "apps/prior_pulls.h"
 #include "apps/wording.h"
 #include "core/vision/median.h"
@@ -211,6 +212,8 @@ std::vector<std::string> Warnings(const CalibrationRun& run, const FoundParamete
   AddMisfit(run, sentences);
   AddHeldOut(run, sentences);
   AddTags(run, sentences);
+  if (run.board)
+    for (const std::string& sentence : Warnings(*run.board)) sentences.push_back("the board: " + sentence);
   AddPoorlyKnown(run, sentences);
   return sentences;
 }

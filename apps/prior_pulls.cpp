@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "calib/board/board_information.h"
 
 namespace legible {
 namespace {
@@ -39,7 +40,8 @@ void AddCamera(const CalibrationRun& run, const FoundParameters& found, PullList
   const PriorKnowledge& known = run.session.known;
   const Camera& camera = run.result.guessed_camera;
   const CameraParameters guess = ParametersOf(camera);
-  const Eigen::MatrixXd by_board = known.camera_information.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd& information = known.camera_information;
+  const Eigen::MatrixXd by_board = information.size() > 0 ? CovarianceOf(information) : information;
   for (int i = 0; i < kCameraParameterCount; ++i) {
     auto sigma = i < 2 ? known.focal_length_px : i < 4 ? known.principal_point_px : known.distortion;
     if (i < by_board.rows()) sigma = std::sqrt(by_board(i, i));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -57,44 +58,58 @@ int PointOf(const std::filesystem::path& file, const CsvRow& row, const Board& b
   return 4 * tag->second + IndexIn(file, row, kSecond, "corner", 4);
 }
 
+// The value, which no corner has much smaller or larger.
+double Demanded(const std::filesystem::path& file, const CsvRow& row, const char* name, double value) {
+  constexpr double kLeast = 1e-6, kMost = 1e6;
+  if (value >= kLeast && value <= kMost) return value;
+  throw InputError(file, row.line, fmt::format("{} is {}", name, value),
+                   fmt::format("give a number from {} to {}", kLeast, kMost));
+}
+
 // In units of the corners' common variance; nothing where the file marks the corner as wrong.
 std::optional<double> VarianceOf(const std::filesystem::path& file, const CsvRow& row) {
   if (!row.fields[kWeight].empty() && !row.fields[kSigma].empty())
     throw InputError(file, row.line, "has both weight and sigma_px", "keep one of the two columns");
-  if (!row.fields[kSigma].empty()) {
-    const double sigma_px = NumberIn(file, row, kSigma, "sigma_px");
-    if (!(sigma_px > 0))
-      throw InputError(file, row.line, fmt::format("sigma_px is {}", sigma_px), "give a number above 0");
-    return sigma_px * sigma_px;
-  }
+  if (!row.fields[kSigma].empty())
+    return std::pow(Demanded(file, row, "sigma_px", NumberIn(file, row, kSigma, "sigma_px")), 2);
   if (row.fields[kWeight].empty()) return 1;
   const double weight = NumberIn(file, row, kWeight, "weight");
-  return weight > 0 ? std::optional(1 / (weight * weight)) : std::nullopt;
+  if (weight <= 0) return std::nullopt;
+  return 1 / std::pow(Demanded(file, row, "weight", weight), 2);
+}
+
+std::string NameOf(const CsvRow& row, const Board& board) {
+  if (board.chessboard)
+    return fmt::format("the corner in column {}, row {},", row.fields[kFirst], row.fields[kSecond]);
+  return fmt::format("corner {} of tag {}", row.fields[kSecond], row.fields[kFirst]);
 }
 
 }  // namespace
 
-std::vector<BoardView> ReadCorners(const std::filesystem::path& file, const Board& board, bool counts_alike) {
+std::vector<ReadView> ReadCorners(const std::filesystem::path& file, const Board& board, bool counts_alike) {
   std::map<int, int> tag_of_id;
   if (board.tags)
     for (size_t i = 0; i < board.tags->tags.size(); ++i)
       tag_of_id[board.tags->tags[i].id] = static_cast<int>(i);
   const std::string text = ReadTextFile(file);
-  std::vector<BoardView> views;
+  std::vector<ReadView> views;
   std::map<std::string, size_t, std::less<>> view_of_name;
   std::set<std::pair<size_t, int>> seen;
   for (const CsvRow& row : ArrangeCsv(file, SplitCsv(text), ColumnsFor(board))) {
     const std::string name(row.fields[kView]);
     if (name.empty()) throw InputError(file, row.line, "view is empty", "name the view or its image");
     const auto [view, is_new] = view_of_name.emplace(name, views.size());
-    if (is_new) views.push_back({name, {}, {}});
+    if (is_new) views.push_back({{name, {}, {}}, {}});
     const int point = PointOf(file, row, board, tag_of_id);
     if (!seen.insert({view->second, point}).second)
       throw InputError(file, row.line, "is a corner that this view has already", "keep one row for it");
     const auto variance = counts_alike ? std::optional(1.0) : VarianceOf(file, row);
-    if (!variance) continue;
     const Eigen::Vector2d pixel(NumberIn(file, row, kX, "x_px"), NumberIn(file, row, kY, "y_px"));
-    views[view->second].corners.push_back({point, pixel, *variance * Eigen::Matrix2d::Identity()});
+    if (variance)
+      views[view->second].view.corners.push_back({point, pixel, *variance * Eigen::Matrix2d::Identity()});
+    else
+      views[view->second].left_out.push_back(
+          {NameOf(row, board), "is marked as wrong in the file of corners", {point}, pixel});
   }
   if (views.empty()) throw InputError(file, 0, "no corner: there is no row below the header", "add some");
   return views;

@@ -5,11 +5,13 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "calib/board/board_start.h"
 #include "calib/board/corner_noise.h"
+#include "calib/board/rough_start.h"
 #include "calib/robust_weights.h"
 #include "core/stopwatch.h"
 #include "core/vision/median.h"
@@ -17,72 +19,20 @@
 namespace legible {
 namespace {
 
-constexpr size_t kFewestCorners = 6;  // of a view: four fix its pose and leave nothing to check
-constexpr size_t kFewestViews = 3;    // that differ: two leave the principal point open
-constexpr size_t kViewsOfRoughSolve = 24;
-constexpr double kOutlierOfStart = 8;        // times the median error: takes no part in the first solve
+constexpr size_t kFewestCorners = 6;         // of a view: four fix its pose and leave nothing to check
+constexpr size_t kFewestViews = 3;           // that differ: two leave the principal point open
 constexpr double kSameView = 5e-3;           // of the image's diagonal: views whose corners differ by less
 constexpr double kLargestUnevenness = 0.06;  // of the distance of neighbouring corners
 constexpr double kLargestFocalSigma = 0.05;  // of the focal length
 constexpr double kHopelessFactor = 2;        // by which a guessed focal length may be off
-constexpr int kMaxRounds = 20;
+constexpr double kCommonCorners = 0.7;       // of the fewer: that two views of one place have in common
+constexpr int kMaxRounds = 100, kRoundsOfScale = 4;
 constexpr double kSteadyScale = 1e-4;   // relative change of the noise at which the rounds end
 constexpr double kSteadyWeight = 1e-5;  // mean absolute change of the weights at which they end
 
 // The whitening of a corner at a weight and a noise.
 Eigen::Matrix2d Scaled(const Eigen::Matrix2d& whitening, double weight, double noise_factor) {
   return std::sqrt(weight) / noise_factor * whitening;
-}
-
-// The views with the most corners, from all over the sequence.
-std::vector<size_t> ViewsOfRoughSolve(const std::vector<ViewObservation>& views) {
-  std::vector<size_t> order;
-  const size_t stride = std::max<size_t>(1, views.size() / kViewsOfRoughSolve);
-  for (size_t first = 0; first < stride; ++first)
-    for (size_t i = first; i < views.size(); i += stride) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return views[a].pixels.size() > views[b].pixels.size(); });
-  order.resize(std::min(order.size(), kViewsOfRoughSolve));
-  return order;
-}
-
-// Distances of the corners from where the model has them, px; infinite for a view it cannot produce.
-std::vector<double> DistancesOf(const Camera& camera, const BoardWarp& warp, ViewObservation view) {
-  view.whitening_per_px.assign(view.pixels.size(), Eigen::Matrix2d::Identity());
-  const auto errors = ViewErrors(camera, warp, view, Vector6d::Zero());
-  std::vector<double> distances(view.pixels.size(), std::numeric_limits<double>::infinity());
-  for (size_t k = 0; errors && k < distances.size(); ++k)
-    distances[k] = errors->segment<2>(2 * static_cast<Eigen::Index>(k)).norm();
-  return distances;
-}
-
-double MedianDistance(const BoardProblem& problem) {
-  std::vector<double> all;
-  for (const ViewObservation& view : problem.views) {
-    const std::vector<double> distances = DistancesOf(problem.camera, problem.warp, view);
-    all.insert(all.end(), distances.begin(), distances.end());
-  }
-  return MedianOf(all);
-}
-
-// Takes what is far off by the median's measure out of a problem that has only been started.
-void LeaveOutGross(BoardProblem& problem) {
-  for (ViewObservation& view : problem.views) {
-    const std::vector<double> distances = DistancesOf(problem.camera, problem.warp, view);
-    const double limit = kOutlierOfStart * MedianOf(distances);
-    for (size_t k = 0; k < distances.size(); ++k)
-      view.whitening_per_px[k] = (distances[k] <= limit ? 1.0 : 0.0) * Eigen::Matrix2d::Identity();
-  }
-}
-
-// A solve that need not be good: a few views, a few steps, gross errors left out.
-BoardProblem RoughlySolved(BoardProblem problem, int iterations) {
-  LeaveOutGross(problem);
-  BoardSolveOptions solve;
-  solve.max_iterations = iterations;
-  solve.relative_tolerance = 1e-4;
-  SolveBoard(problem, solve);
-  return problem;
 }
 
 // Whether the corners do not span the board's plane, or the image's.
@@ -102,16 +52,32 @@ bool AreOnOneLine(const ViewObservation& view) {
   return is_narrow(on_board) || is_narrow(in_image);
 }
 
-// Whether two views show the same corners in the same places.
+// Whether two views show the board in the same place, by the corners that both have.
 bool AreSame(const BoardView& a, const BoardView& b, double tolerance_px) {
-  if (a.corners.size() != b.corners.size()) return false;
-  double squares = 0;
-  for (size_t k = 0; k < a.corners.size(); ++k) {
-    if (a.corners[k].point != b.corners[k].point) return false;
-    squares += (a.corners[k].pixel - b.corners[k].pixel).squaredNorm();
+  std::map<int, Eigen::Vector2d> of_b;
+  for (const BoardCorner& corner : b.corners) of_b[corner.point] = corner.pixel;
+  double squares = 0, common = 0;
+  for (const BoardCorner& corner : a.corners) {
+    const auto same = of_b.find(corner.point);
+    if (same == of_b.end()) continue;
+    squares += (corner.pixel - same->second).squaredNorm();
+    common += 1;
   }
-  return squares <= tolerance_px * tolerance_px * static_cast<double>(a.corners.size());
+  const double fewer = static_cast<double>(std::min(a.corners.size(), b.corners.size()));
+  return common > kCommonCorners * fewer && squares <= tolerance_px * tolerance_px * common;
 }
+
+// A view that has a part.
+struct UsedView {
+  size_t source = 0;  // which of the input's views
+  ViewObservation observation;
+  std::vector<Eigen::Matrix2d> own_whitening;  // of the corners, by their own covariances
+  std::vector<double> weight;
+  std::vector<Eigen::Vector2d> error_px;
+
+  double CountedCorners() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+  double Square(size_t corner) const { return (own_whitening[corner] * error_px[corner]).squaredNorm(); }
+};
 
 class CameraCalibrator {
  public:
@@ -126,36 +92,46 @@ class CameraCalibrator {
   BoardProblem SolvedBy(const BoardCalibration& solution);
 
  private:
+  enum class Outcome { kSettled, kUnsettled, kTooFewViews, kCannotBeEvaluated };
+
   void AddView(size_t view);
-  size_t DistinctViews() const;
-  bool Start(const StraightenedViews& straightened);
+  int DistinctViews() const;
   bool HasFlatBoards(const StraightenedViews& straightened) const;
+  BoardCalibration NotFlat();
+  bool Start(const StraightenedViews& straightened);
+  void Place(const BoardCalibration& earlier);
+  void Drop(size_t view, const std::string& reason);
+  void DropOutlyingViews();
+  std::vector<ViewObservation> Observations() const;
+  BoardProblem Whitened() const;
+
+  Outcome Run();
+  bool Solve();
+  bool Evaluate();
+  bool Reweight(int round);
+  double NoiseByMedian() const;
+  double NoiseBySquares() const;
+  double Rms() const;
   void Report(const char* stage, int iteration, double rms_px) const {
     if (options_.progress) options_.progress(stage, iteration, rms_px);
   }
-  void Place(const BoardCalibration& earlier);
-  void Whiten();
-  bool Run();
-  BoardSolveSummary Solve();
-  bool Evaluate();
-  bool Reweight(bool by_median);
-  double NoiseBySquares() const;
-  double Rms() const;
+
   BoardCalibration Failed(BoardCalibrationStatus status, const std::string& message);
-  BoardCalibration Result(bool settled);
-  void Judge(bool settled);
+  BoardCalibration Result(Outcome outcome);
+  void Describe(const UsedView& view);
+  void Judge(Outcome outcome);
 
   const BoardCalibrationInput& input_;
   const BoardCalibrationOptions& options_;
   const Stopwatch stopwatch_;
-  BoardProblem problem_;                                     // of the views that have a part
-  std::vector<size_t> source_;                               // which of the input these are
-  std::vector<std::vector<Eigen::Matrix2d>> own_whitening_;  // of their corners, by their own covariances
-  std::vector<std::vector<double>> weights_;
-  std::vector<std::vector<Eigen::Vector2d>> errors_px_;
-  double noise_factor_ = 1;
+  Camera camera_;
+  BoardWarp warp_;
+  std::vector<UsedView> views_;
+  double noise_factor_ = 1, weight_scale_ = 1;
   BoardCalibration result_;
 };
+
+// --- Views. ----------------------------------------------------------------------------------------------
 
 void CameraCalibrator::AddView(size_t view) {
   const BoardView& seen = input_.views[view];
@@ -164,87 +140,115 @@ void CameraCalibrator::AddView(size_t view) {
         fmt::format("shows {} corners of the board, fewer than {}", seen.corners.size(), kFewestCorners);
     return;
   }
-  ViewObservation observation;
-  std::vector<Eigen::Matrix2d> whitening;
+  UsedView used;
+  used.source = view;
   for (const BoardCorner& corner : seen.corners) {
-    observation.points_in_board_m.push_back(input_.points_in_board_m.at(static_cast<size_t>(corner.point)));
-    observation.pixels.push_back(corner.pixel);
-    whitening.push_back(WhiteningOf(corner.covariance_px2));
+    used.observation.points_in_board_m.push_back(
+        input_.points_in_board_m.at(static_cast<size_t>(corner.point)));
+    used.observation.pixels.push_back(corner.pixel);
+    used.own_whitening.push_back(WhiteningOf(corner.covariance_px2));
   }
-  observation.whitening_per_px.assign(seen.corners.size(), Eigen::Matrix2d::Identity());
-  if (AreOnOneLine(observation)) {
+  used.observation.whitening_per_px.assign(seen.corners.size(), Eigen::Matrix2d::Identity());
+  used.weight.assign(seen.corners.size(), 1.0);
+  used.error_px.assign(seen.corners.size(), Eigen::Vector2d::Zero());
+  if (AreOnOneLine(used.observation))
     result_.views[view].left_out = "shows corners on one line of the board only";
-    return;
-  }
-  problem_.views.push_back(observation);
-  source_.push_back(view);
-  own_whitening_.push_back(whitening);
-  weights_.emplace_back(seen.corners.size(), 1.0);
-  errors_px_.emplace_back(seen.corners.size(), Eigen::Vector2d::Zero());
+  else
+    views_.push_back(std::move(used));
 }
 
-size_t CameraCalibrator::DistinctViews() const {
+int CameraCalibrator::DistinctViews() const {
   const double tolerance_px = kSameView * std::hypot(input_.width_px, input_.height_px);
-  std::vector<size_t> distinct;
-  for (size_t view : source_)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](size_t other) {
-          return AreSame(input_.views[view], input_.views[other], tolerance_px);
-        }))
-      distinct.push_back(view);
-  return distinct.size();
+  std::vector<const BoardView*> distinct;
+  for (const UsedView& view : views_) {
+    const BoardView& seen = input_.views[view.source];
+    if (std::none_of(distinct.begin(), distinct.end(),
+                     [&](const BoardView* other) { return AreSame(seen, *other, tolerance_px); }))
+      distinct.push_back(&seen);
+  }
+  return static_cast<int>(distinct.size());
 }
 
 bool CameraCalibrator::HasFlatBoards(const StraightenedViews& straightened) const {
   std::vector<double> shares;
-  for (size_t i = 0; i < problem_.views.size(); ++i)
+  for (size_t i = 0; i < views_.size(); ++i)
     if (const auto& view = straightened.views[i])
-      shares.push_back(view->median_error * straightened.unit_px / NeighbourDistance_px(problem_.views[i]));
+      shares.push_back(view->median_error * straightened.unit_px /
+                       NeighbourDistance_px(views_[i].observation));
   return !shares.empty() && MedianOf(shares) <= kLargestUnevenness;
 }
 
-// Several focal lengths, each roughly solved on some views; the one that leaves least is taken for all.
+// What a pinhole cannot make flat, a lens perhaps can.
+BoardCalibration CameraCalibrator::NotFlat() {
+  const bool may_be_the_lens =
+      options_.lens == LensModel::kPinhole &&
+      HasFlatBoards(Straighten(Observations(), input_.width_px, input_.height_px, true));
+  if (may_be_the_lens)
+    return Failed(BoardCalibrationStatus::kNotConverged,
+                  "the lens bends straight lines: take another lens model than pinhole");
+  return Failed(BoardCalibrationStatus::kNotFlat, "the corners do not lie to each other as on the board");
+}
+
+std::vector<ViewObservation> CameraCalibrator::Observations() const {
+  std::vector<ViewObservation> observations;
+  for (const UsedView& view : views_) observations.push_back(view.observation);
+  return observations;
+}
+
+// Takes the start over, without views that no pose of the board explains.
 bool CameraCalibrator::Start(const StraightenedViews& straightened) {
-  std::vector<double> focal_lengths = {0.35, 0.6, 1, 1.7, 3, 6, 12};  // 141 to 10 degrees across the diagonal
-  if (const auto zhang = FocalLengthOf(straightened)) focal_lengths.push_back(*zhang);
-  if (options_.guess) focal_lengths.push_back(options_.guess->fx_px / straightened.unit_px);
-  const std::vector<size_t> some = ViewsOfRoughSolve(problem_.views);
-  std::optional<BoardProblem> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (double focal_length : focal_lengths) {
-    const BoardProblem all = ProblemAt(straightened, focal_length, options_.lens, input_.width_px,
-                                       input_.height_px, problem_.views);
-    BoardProblem few = all;
-    few.views.clear();
-    for (size_t i : some) few.views.push_back(all.views[i]);
-    few = RoughlySolved(few, 15);
-    const double error = MedianDistance(few);
-    Report("looking for a start", 0, error);
-    if (!(error < least) || !(few.camera.fx_px > 0) || !(few.camera.fy_px > 0)) continue;
-    least = error;
-    best = all;
-    best->camera = few.camera;
-    for (size_t k = 0; k < some.size(); ++k) best->views[some[k]] = few.views[k];
-  }
-  if (!best) return false;
-  problem_.camera = best->camera;
-  // The poses of all views under that camera: by their homographies under its focal length, then fitted.
-  const BoardProblem at_last = ProblemAt(straightened, best->camera.fx_px / straightened.unit_px,
-                                         options_.lens, input_.width_px, input_.height_px, problem_.views);
-  for (size_t i = 0; i < problem_.views.size(); ++i)
-    problem_.views[i].camera_from_board = at_last.views[i].camera_from_board;
-  for (size_t i : some) problem_.views[i].camera_from_board = best->views[i].camera_from_board;
-  problem_ = RoughlySolved(problem_, 15);
+  std::vector<double> more;
+  if (options_.guess) more.push_back(options_.guess->fx_px / straightened.unit_px);
+  const auto start =
+      RoughStart(straightened, options_.lens, input_.width_px, input_.height_px, Observations(), more,
+                 [this](double error_px) { Report("looking for a start", 0, error_px); });
+  if (!start) return false;
+  camera_ = start->camera;
+  for (size_t i = 0; i < views_.size(); ++i)
+    views_[i].observation.camera_from_board = start->views[i].camera_from_board;
+  const std::vector<size_t> unexplained = UnexplainedViews(*start, options_.trusts_all);
+  for (size_t i = unexplained.size(); i-- > 0;)
+    Drop(unexplained[i], "fits no pose of the board: its corners are far from where any puts them");
   return true;
 }
 
-void CameraCalibrator::Whiten() {
-  for (size_t i = 0; i < problem_.views.size(); ++i)
-    for (size_t k = 0; k < weights_[i].size(); ++k)
-      problem_.views[i].whitening_per_px[k] = Scaled(own_whitening_[i][k], weights_[i][k], noise_factor_);
+void CameraCalibrator::Place(const BoardCalibration& earlier) {
+  camera_ = earlier.camera;
+  warp_ = earlier.warp;
+  for (size_t i = views_.size(); i-- > 0;) {
+    const ViewFit& fit = earlier.views.at(views_[i].source);
+    views_[i].observation.camera_from_board = fit.camera_from_board;
+    if (!fit.left_out.empty()) Drop(i, fit.left_out);
+  }
 }
 
-BoardSolveSummary CameraCalibrator::Solve() {
-  Whiten();
+// Views count from 0 among those that have a part.
+void CameraCalibrator::Drop(size_t view, const std::string& reason) {
+  result_.views[views_[view].source].left_out = reason;
+  views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(view));
+}
+
+// Few corners left do not hold a view's pose.
+void CameraCalibrator::DropOutlyingViews() {
+  for (size_t i = views_.size(); i-- > 0;)
+    if (views_[i].CountedCorners() < static_cast<double>(kFewestCorners))
+      Drop(i, "contradicts the others: nearly all of its corners are far from where these put them");
+}
+
+// --- The estimate. ---------------------------------------------------------------------------------------
+
+// With the weights and the noise as they stand.
+BoardProblem CameraCalibrator::Whitened() const {
+  BoardProblem problem{camera_, Observations(), warp_, options_.estimates_warp};
+  for (size_t i = 0; i < views_.size(); ++i)
+    for (size_t k = 0; k < views_[i].weight.size(); ++k)
+      problem.views[i].whitening_per_px[k] =
+          Scaled(views_[i].own_whitening[k], views_[i].weight[k], noise_factor_);
+  return problem;
+}
+
+bool CameraCalibrator::Solve() {
+  BoardProblem problem = Whitened();
   BoardSolveOptions solve;
   solve.max_iterations = options_.max_iterations;
   solve.threads = options_.threads;
@@ -254,82 +258,94 @@ BoardSolveSummary CameraCalibrator::Solve() {
       Report("estimating", result_.iterations + iteration,
              first > 0 ? rms_px * std::sqrt(cost / first) : rms_px);
     };
-  const BoardSolveSummary summary = SolveBoard(problem_, solve);
+  const BoardSolveSummary summary = SolveBoard(problem, solve);
   result_.iterations += summary.iterations;
-  return summary;
+  camera_ = problem.camera;
+  warp_ = problem.warp;
+  for (size_t i = 0; i < views_.size(); ++i)
+    views_[i].observation.camera_from_board = problem.views[i].camera_from_board;
+  return summary.converged;
 }
 
 // False where the model cannot be evaluated any more.
 bool CameraCalibrator::Evaluate() {
-  for (size_t i = 0; i < problem_.views.size(); ++i) {
-    ViewObservation view = problem_.views[i];
-    view.whitening_per_px.assign(view.pixels.size(), Eigen::Matrix2d::Identity());
-    const auto errors = ViewErrors(problem_.camera, problem_.warp, view, Vector6d::Zero());
+  for (UsedView& view : views_) {
+    const auto errors = ViewErrors(camera_, warp_, view.observation, Vector6d::Zero());
     if (!errors) return false;
-    for (size_t k = 0; k < view.pixels.size(); ++k)
-      errors_px_[i][k] = errors->segment<2>(2 * static_cast<Eigen::Index>(k));
+    for (size_t k = 0; k < view.error_px.size(); ++k)
+      view.error_px[k] = errors->segment<2>(2 * static_cast<Eigen::Index>(k));
   }
   return true;
+}
+
+double CameraCalibrator::NoiseByMedian() const {
+  std::vector<double> squares;
+  for (const UsedView& view : views_)
+    for (size_t k = 0; k < view.weight.size(); ++k) squares.push_back(view.Square(k));
+  return std::sqrt(MedianOf(squares) / kMedianSquareInPlane);
 }
 
 // The factor on the corners' own sigmas that the weighted residuals show.
 double CameraCalibrator::NoiseBySquares() const {
   double squares = 0, weights = 0;
-  for (size_t i = 0; i < errors_px_.size(); ++i)
-    for (size_t k = 0; k < errors_px_[i].size(); ++k) {
-      squares += weights_[i][k] * (own_whitening_[i][k] * errors_px_[i][k]).squaredNorm();
-      weights += weights_[i][k];
+  for (const UsedView& view : views_)
+    for (size_t k = 0; k < view.weight.size(); ++k) {
+      squares += view.weight[k] * view.Square(k);
+      weights += view.weight[k];
     }
-  const double unknowns = problem_.CameraUnknowns() + 6 * static_cast<double>(problem_.views.size()) +
-                          (problem_.estimates_warp ? 2 : 0);
+  const double unknowns = 4 + static_cast<double>(camera_.lens) + 6 * static_cast<double>(views_.size()) +
+                          (options_.estimates_warp ? 2 : 0);
   const double freedom = 2 * weights - unknowns;
   const double cut_off = options_.trusts_all ? 1 : CutOffInPlane();
   return freedom > 0 ? std::sqrt(squares / freedom / cut_off) : 0;
 }
 
-// Updates noise and weights; true once they stand still.
-bool CameraCalibrator::Reweight(bool by_median) {
-  const double before = noise_factor_;
-  std::vector<double> squares;
-  for (size_t i = 0; i < errors_px_.size(); ++i)
-    for (size_t k = 0; k < errors_px_[i].size(); ++k)
-      squares.push_back((own_whitening_[i][k] * errors_px_[i][k]).squaredNorm());
-  noise_factor_ = by_median ? std::sqrt(MedianOf(squares) / kMedianSquareInPlane) : NoiseBySquares();
-  noise_factor_ = std::max(noise_factor_, 1e-9);  // exact data
-  double change = 0;
-  size_t at = 0;
-  for (std::vector<double>& weights : weights_)
-    for (double& weight : weights) {
-      const double now = options_.trusts_all ? 1 : RobustWeight(std::sqrt(squares[at++]) / noise_factor_);
-      change += std::abs(now - weight);
-      weight = now;
+// Updates noise and weights; true once they stand still. The scale of the weights follows the noise in the
+// first rounds only: under a lens model that does not fit it would go on shrinking, and take ever more
+// corners for outliers.
+bool CameraCalibrator::Reweight(int round) {
+  const bool by_median = round <= 0 && !options_.trusts_all;
+  noise_factor_ = std::max(by_median ? NoiseByMedian() : NoiseBySquares(), 1e-9);  // exact data
+  const double scale_before = weight_scale_;
+  if (round < kRoundsOfScale) weight_scale_ = noise_factor_;
+  double change = 0, count = 0;
+  for (UsedView& view : views_)
+    for (size_t k = 0; k < view.weight.size(); ++k) {
+      const double next = options_.trusts_all ? 1 : RobustWeight(std::sqrt(view.Square(k)) / weight_scale_);
+      change += std::abs(next - view.weight[k]);
+      view.weight[k] = next;
+      count += 1;
     }
-  return !by_median && std::abs(noise_factor_ - before) <= kSteadyScale * noise_factor_ &&
-         change <= kSteadyWeight * static_cast<double>(squares.size());
+  return !by_median && std::abs(weight_scale_ - scale_before) <= kSteadyScale * weight_scale_ &&
+         change <= kSteadyWeight * count;
 }
 
-// Rounds of least squares and re-weighting; whether they settled.
-bool CameraCalibrator::Run() {
-  if (!Evaluate()) return false;
-  Reweight(true);
+// Rounds of least squares and re-weighting.
+CameraCalibrator::Outcome CameraCalibrator::Run() {
+  if (!Evaluate()) return Outcome::kCannotBeEvaluated;
+  Reweight(-1);
   for (int round = 0; round < kMaxRounds; ++round) {
-    const BoardSolveSummary summary = Solve();
-    if (!Evaluate()) return false;
-    const bool steady = Reweight(round == 0 && !options_.trusts_all);
-    if (summary.converged && (steady || options_.trusts_all)) return true;
+    DropOutlyingViews();
+    if (views_.size() < kFewestViews) return Outcome::kTooFewViews;
+    const bool converged = Solve();
+    if (!Evaluate()) return Outcome::kCannotBeEvaluated;
+    const bool steady = Reweight(round);
+    if (converged && (steady || options_.trusts_all)) return Outcome::kSettled;
   }
-  return false;
+  return Outcome::kUnsettled;
 }
 
 double CameraCalibrator::Rms() const {
   double squares = 0, weights = 0;
-  for (size_t i = 0; i < errors_px_.size(); ++i)
-    for (size_t k = 0; k < errors_px_[i].size(); ++k) {
-      squares += weights_[i][k] * errors_px_[i][k].squaredNorm();
-      weights += weights_[i][k];
+  for (const UsedView& view : views_)
+    for (size_t k = 0; k < view.weight.size(); ++k) {
+      squares += view.weight[k] * view.error_px[k].squaredNorm();
+      weights += view.weight[k];
     }
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }
+
+// --- What came out. --------------------------------------------------------------------------------------
 
 BoardCalibration CameraCalibrator::Failed(BoardCalibrationStatus status, const std::string& message) {
   result_.status = status;
@@ -338,84 +354,86 @@ BoardCalibration CameraCalibrator::Failed(BoardCalibrationStatus status, const s
   return result_;
 }
 
-BoardCalibration CameraCalibrator::Result(bool settled) {
-  result_.camera = problem_.camera;
-  result_.warp = problem_.warp;
+void CameraCalibrator::Describe(const UsedView& view) {
+  ViewFit& fit = result_.views[view.source];
+  fit.camera_from_board = view.observation.camera_from_board;
+  fit.residual_px = view.error_px;
+  fit.weight = view.weight;
+  double squares = 0;
+  for (size_t k = 0; k < view.weight.size(); ++k) {
+    squares += view.weight[k] * view.error_px[k].squaredNorm();
+    if (view.weight[k] == 0) ++result_.corners_left_out;
+  }
+  fit.rms_px = std::sqrt(squares / std::max(view.CountedCorners(), 1e-9));
+  result_.corners += view.CountedCorners();
+}
+
+BoardCalibration CameraCalibrator::Result(Outcome outcome) {
+  if (outcome == Outcome::kCannotBeEvaluated)
+    return Failed(BoardCalibrationStatus::kNotConverged,
+                  "the estimate ran into a camera that could not see the boards");
+  if (outcome == Outcome::kTooFewViews)
+    return Failed(BoardCalibrationStatus::kTooFewViews,
+                  fmt::format("no more than {} views agree with each other", views_.size()));
+  result_.camera = camera_;
+  result_.warp = warp_;
   result_.rms_px = Rms();
   result_.noise_factor = noise_factor_;
-  for (size_t i = 0; i < source_.size(); ++i) {
-    ViewFit& view = result_.views[source_[i]];
-    view.camera_from_board = problem_.views[i].camera_from_board;
-    view.residual_px = errors_px_[i];
-    view.weight = weights_[i];
-    double squares = 0, weights = 0;
-    for (size_t k = 0; k < weights_[i].size(); ++k) {
-      squares += weights_[i][k] * errors_px_[i][k].squaredNorm();
-      weights += weights_[i][k];
-      if (weights_[i][k] == 0) ++result_.corners_left_out;
-    }
-    view.rms_px = weights > 0 ? std::sqrt(squares / weights) : 0;
-    result_.corners += weights;
+  result_.distinct_views = DistinctViews();
+  double own_squares = 0;
+  for (const UsedView& view : views_) {
+    Describe(view);
+    for (size_t k = 0; k < view.weight.size(); ++k)
+      own_squares += view.weight[k] * input_.views[view.source].corners[k].covariance_px2.trace() / 2;
   }
-  Whiten();
-  Judge(settled);
+  result_.corner_sigma_px = noise_factor_ * std::sqrt(own_squares / result_.corners);
+  Judge(outcome);
   result_.seconds = stopwatch_.Seconds();
   return result_;
 }
 
-void CameraCalibrator::Judge(bool settled) {
-  result_.information = InformationOf(problem_);
-  const Camera& camera = problem_.camera;
+void CameraCalibrator::Judge(Outcome outcome) {
+  result_.information = InformationOf(Whitened());
   const double sigma_px = std::sqrt(result_.information.covariance.diagonal().head<2>().maxCoeff());
-  if (!(sigma_px <= kLargestFocalSigma * camera.fx_px)) {
+  if (!(sigma_px <= kLargestFocalSigma * camera_.fx_px)) {
     result_.status = BoardCalibrationStatus::kUndetermined;
     result_.message = fmt::format(
         "the views tell the focal length to {:.0f} % only: tilt the board by 30 degrees and more against the "
         "image, to different sides",
-        100 * sigma_px / camera.fx_px);
-  } else if (!settled) {
-    result_.message = "the estimate did not settle";
-  } else if (options_.guess && (options_.guess->fx_px > kHopelessFactor * camera.fx_px ||
-                                options_.guess->fx_px * kHopelessFactor < camera.fx_px)) {
+        100 * sigma_px / camera_.fx_px);
+  } else if (outcome != Outcome::kSettled) {
+    result_.message = "the estimate did not settle: another lens model may fit better";
+  } else if (options_.guess && (options_.guess->fx_px > kHopelessFactor * camera_.fx_px ||
+                                options_.guess->fx_px * kHopelessFactor < camera_.fx_px)) {
     result_.status = BoardCalibrationStatus::kHopelessGuess;
     result_.message =
         fmt::format("the guess has a focal length of {:.6g} px, and the views lead to {:.6g} px",
-                    options_.guess->fx_px, camera.fx_px);
+                    options_.guess->fx_px, camera_.fx_px);
   } else {
     result_.status = BoardCalibrationStatus::kConverged;
   }
 }
 
 BoardCalibration CameraCalibrator::FromNothing() {
-  if (problem_.views.empty())
+  if (views_.empty())
     return Failed(BoardCalibrationStatus::kTooFewViews,
                   fmt::format("no view shows {} or more corners of the board", kFewestCorners));
-  const size_t distinct = DistinctViews();
+  const size_t distinct = static_cast<size_t>(DistinctViews());
   if (distinct < kFewestViews)
     return Failed(
         BoardCalibrationStatus::kTooFewViews,
-        problem_.views.size() > distinct
+        views_.size() > distinct
             ? fmt::format("{} views show the board in the same place, which is no more than {} does",
-                          problem_.views.size(), distinct == 1 ? "one" : "two")
+                          views_.size(), distinct == 1 ? "one" : "two")
             : fmt::format("{} view{} of the board cannot determine a camera", distinct,
                           distinct == 1 ? "" : "s"));
   const StraightenedViews straightened =
-      Straighten(problem_.views, input_.width_px, input_.height_px, options_.lens != LensModel::kPinhole);
-  if (!HasFlatBoards(straightened))
-    return Failed(BoardCalibrationStatus::kNotFlat, "the corners do not lie to each other as on the board");
+      Straighten(Observations(), input_.width_px, input_.height_px, options_.lens != LensModel::kPinhole);
+  if (!HasFlatBoards(straightened)) return NotFlat();
   if (!Start(straightened))
     return Failed(BoardCalibrationStatus::kNotConverged, "no camera explains the views");
-  problem_.warp = FlatOver(input_.points_in_board_m);
-  problem_.estimates_warp = options_.estimates_warp;
+  warp_ = FlatOver(input_.points_in_board_m);
   return Result(Run());
-}
-
-void CameraCalibrator::Place(const BoardCalibration& earlier) {
-  problem_.camera = earlier.camera;
-  problem_.warp = earlier.warp;
-  problem_.estimates_warp = options_.estimates_warp;
-  for (size_t i = 0; i < source_.size(); ++i)
-    problem_.views[i].camera_from_board = earlier.views.at(source_[i]).camera_from_board;
 }
 
 BoardCalibration CameraCalibrator::From(const BoardCalibration& earlier) {
@@ -426,9 +444,8 @@ BoardCalibration CameraCalibrator::From(const BoardCalibration& earlier) {
 BoardProblem CameraCalibrator::SolvedBy(const BoardCalibration& solution) {
   Place(solution);
   noise_factor_ = solution.noise_factor;
-  for (size_t i = 0; i < source_.size(); ++i) weights_[i] = solution.views[source_[i]].weight;
-  Whiten();
-  return problem_;
+  for (UsedView& view : views_) view.weight = solution.views[view.source].weight;
+  return Whitened();
 }
 
 }  // namespace

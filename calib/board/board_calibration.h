@@ -1,7 +1,6 @@
 // A camera's intrinsics from views of a calibration board.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -62,8 +61,9 @@ struct BoardCalibration {
   int corners_left_out = 0;  // weight 0
   int iterations = 0;
   double seconds = 0;
-  // Of one coordinate of a corner as the weighted residuals show it.
-  double CornerSigma_px() const { return rms_px / std::sqrt(2.0); }
+  double corner_sigma_px =
+      0;                   // of one coordinate of a corner, rms over them: their own sigmas and the factor
+  int distinct_views = 0;  // that show the board in different places
   BoardInformation information;  // where converged: in the units of the noise that the residuals show
 };
 

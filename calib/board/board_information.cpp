@@ -42,9 +42,9 @@ Eigen::MatrixXd WithoutWarp(const Eigen::MatrixXd& information, Eigen::Index cam
          cross * information.bottomRightCorner(warp, warp).ldlt().solve(cross.transpose());
 }
 
-// Scaled to a unit diagonal first, for coefficients and pixels differ by many orders. Combinations that
-// rounding hides, as of the coefficients of a lens that needs fewer, get the sigma at which it does.
-Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
+}  // namespace
+
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) {
   constexpr double kRounding = 1e-15;
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * information *
@@ -53,8 +53,6 @@ Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
   const Eigen::MatrixXd vectors = scale.asDiagonal() * solver.eigenvectors();
   return vectors * solver.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() * vectors.transpose();
 }
-
-}  // namespace
 
 BoardInformation InformationOf(const BoardProblem& problem) {
   const Eigen::Index camera = problem.CameraUnknowns(), n = camera + (problem.estimates_warp ? 2 : 0);
@@ -75,7 +73,7 @@ BoardInformation InformationOf(const BoardProblem& problem) {
 
   BoardInformation result;
   result.information = WithoutWarp(information, camera);
-  const Eigen::MatrixXd shared = InverseOf(information);
+  const Eigen::MatrixXd shared = CovarianceOf(information);
   result.covariance.resize(camera + 6, camera + 6);
   result.covariance.topLeftCorner(camera, camera) = shared.topLeftCorner(camera, camera);
   result.covariance.bottomLeftCorner(6, camera) = follow * shared.leftCols(camera);

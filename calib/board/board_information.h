@@ -23,6 +23,11 @@ struct BoardInformation {
 // At the problem's solution, with its whitening.
 BoardInformation InformationOf(const BoardProblem& problem);
 
+// The inverse of an information whose parameters differ by many orders: scaled to a unit diagonal first.
+// Combinations that rounding hides, as of the coefficients of a lens that needs fewer, get the sigma at which
+// it does.
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information);
+
 // The information that one view adds, its pose eliminated, of the camera's unknowns alone.
 Eigen::MatrixXd ViewInformation(const BoardProblem& problem, const ViewObservation& view);
 

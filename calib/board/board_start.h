@@ -21,6 +21,11 @@ struct StraightenedViews {
   double lambda = 0;
   double unit_px = 1;  // half the image's diagonal
   Eigen::Vector2d centre_px;
+  // Where a pixel would be without the lens.
+  Eigen::Vector2d StraightPlace(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d p = (pixel - centre_px) / unit_px;
+    return p / (1 + lambda * p.squaredNorm());
+  }
   std::vector<std::optional<ViewHomography>> views;  // none where fewer than four corners or all on one line
 };
 

@@ -1,6 +1,9 @@
 #include "calib/board/halves.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
@@ -10,6 +13,7 @@ namespace legible {
 namespace {
 
 constexpr double kConfidence = 0.999;
+constexpr int kFewestViews = 6;  // three determine a camera
 
 // Every other view of those that take part, and where the whole solution has them.
 struct Half {
@@ -65,6 +69,10 @@ Eigen::VectorXd DifferencesOf(const Camera& other, const WeightedGrid& weighted,
 void Compare(const Camera& first, const Camera& second, const Eigen::MatrixXd& covariance,
              HalvesComparison& result) {
   const WeightedGrid weighted = WeightedOver(first, result.grid, covariance);
+  if (weighted.points.empty()) {
+    result.why_not = "the lens model reaches no part of the image that is looked at";
+    return;
+  }
   const Eigen::VectorXd differences = DifferencesOf(second, weighted, result.grid);
   // In first order the differences are D z with z of that covariance: their square is a sum of squares of
   // normal values with the eigenvalues of L^T D^T D L as variances (L L^T = covariance), nearly a chi-square
@@ -101,6 +109,12 @@ HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCa
   result.grid = grid;
   result.difference_px.resize(static_cast<size_t>(grid.columns * grid.rows));
   result.expected_px.resize(result.difference_px.size());
+  const auto used = std::count_if(whole.views.begin(), whole.views.end(),
+                                  [](const ViewFit& view) { return view.left_out.empty(); });
+  if (used < kFewestViews) {
+    result.why_not = fmt::format("{} views are too few for two halves, {} are needed", used, kFewestViews);
+    return result;
+  }
   BoardCalibrationOptions quiet = options;
   quiet.progress = nullptr;
   std::vector<BoardCalibration> found;

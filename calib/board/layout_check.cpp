@@ -60,10 +60,10 @@ struct LayoutFit {
 };
 
 LayoutFit FitLayout(const std::vector<SeenTags>& views, const std::vector<Eigen::Vector3d>& layout,
-                    const BoardCalibrationInput& input) {
+                    const BoardCalibrationInput& input, bool may_bend) {
   std::vector<ViewObservation> observed;
   for (const SeenTags& tags : views) observed.push_back(CentresOf(tags, layout));
-  LayoutFit fit{1, Straighten(observed, input.width_px, input.height_px, false)};
+  LayoutFit fit{1, Straighten(observed, input.width_px, input.height_px, may_bend)};
   std::vector<double> shares;
   for (size_t i = 0; i < observed.size(); ++i) {
     if (!fit.views.views[i]) continue;
@@ -81,8 +81,7 @@ double SizeFactor(const std::vector<SeenTags>& views, const LayoutFit& fit, cons
     if (!fit.views.views[i]) continue;
     const Eigen::Matrix3d board_from_image = fit.views.views[i]->image_from_board.inverse();
     const auto on_board = [&](const Eigen::Vector2d& pixel) -> Eigen::Vector2d {
-      const Eigen::Vector2d p = (pixel - fit.views.centre_px) / fit.views.unit_px;
-      return (board_from_image * p.homogeneous()).hnormalized();
+      return (board_from_image * fit.views.StraightPlace(pixel).homogeneous()).hnormalized();
     };
     for (const SeenTag& tag : views[i]) {
       const auto& stated_m = board.tags[tag.index].corners_m;
@@ -111,7 +110,7 @@ std::string OtherLayout(const std::vector<SeenTags>& views, const TagBoard& boar
                         const BoardCalibrationInput& input) {
   for (int columns = 1; columns <= kMostColumns; ++columns)
     for (const bool from_top : {true, false}) {
-      if (FitLayout(views, RowByRow(board, columns, from_top), input).unevenness > kFits) continue;
+      if (FitLayout(views, RowByRow(board, columns, from_top), input, false).unevenness > kFits) continue;
       return fmt::format("in the images they lie as in {} columns, ids row by row from the {}", columns,
                          from_top ? "top left" : "bottom left");
     }
@@ -125,19 +124,32 @@ std::vector<Eigen::Vector3d> CentresOf(const TagBoard& board) {
   return centres;
 }
 
+std::vector<SeenTags> WholeTags(const BoardCalibrationInput& input) {
+  std::vector<SeenTags> views;
+  for (const BoardView& view : input.views)
+    if (SeenTags tags = WholeTagsOf(view); tags.size() >= kFewestTags) views.push_back(std::move(tags));
+  return views;
+}
+
 }  // namespace
+
+std::optional<double> TagSizeFactor(const TagBoard& board, const BoardCalibrationInput& input) {
+  const std::vector<SeenTags> views = WholeTags(input);
+  if (views.empty()) return std::nullopt;
+  const LayoutFit stated = FitLayout(views, CentresOf(board), input, true);
+  if (stated.unevenness > kFits) return std::nullopt;
+  return SizeFactor(views, stated, board);
+}
 
 std::string WhyNotFlat(const Board& board, const BoardCalibrationInput& input) {
   const std::string what = "the corners in the images do not lie to each other as on the board: ";
   if (!board.tags) return what + "check its columns and rows, and whether it is flat";
-  std::vector<SeenTags> views;
-  for (const BoardView& view : input.views)
-    if (SeenTags tags = WholeTagsOf(view); tags.size() >= kFewestTags) views.push_back(std::move(tags));
-  if (views.empty()) return what + "check its layout, and whether it is flat";
-  const LayoutFit stated = FitLayout(views, CentresOf(*board.tags), input);
-  if (stated.unevenness > kFits) return what + OtherLayout(views, *board.tags, input);
-  return what + fmt::format("its tags are {:.3g} times as large, against their distances, as it says",
-                            SizeFactor(views, stated, *board.tags));
+  if (const auto factor = TagSizeFactor(*board.tags, input))
+    return what +
+           fmt::format("its tags are {:.3g} times as large, against their distances, as it says", *factor);
+  const std::vector<SeenTags> views = WholeTags(input);
+  return what + (views.empty() ? "check its layout, and whether it is flat"
+                               : OtherLayout(views, *board.tags, input));
 }
 
 }  // namespace legible

@@ -127,6 +127,8 @@ TagDetector::~TagDetector() {
 }
 
 std::vector<TagDetection> TagDetector::Detect(const GrayImage& image) const {
+  constexpr int kSmallest_px = 16;  // libapriltag crashes on images of few pixels
+  if (image.width < kSmallest_px || image.height < kSmallest_px) return {};
   if (library_->aruco) return DetectByAruco(library_->aruco, library_->options.border_bits, image);
   image_u8_t view{image.width, image.height, image.width, const_cast<std::uint8_t*>(image.pixels.data())};
   zarray_t* found = apriltag_detector_detect(library_->detector, &view);

@@ -165,7 +165,28 @@ TEST_F(BoardImages, RefuseABoardWithWrongColumnsAndSayWhichTheyShow) {
 
 TEST_F(BoardImages, RefuseAWrongTagSizeAndSayByWhichFactor) {
   folder_.Write("board.yaml", Replaced(Replaced(kBoardYaml, "0.04", "0.03"), "0.012", "0.022"));
-  ExpectRefusal(RunOnIt(), kExitBadInput, AllOf(HasSubstr("board.yaml"), HasSubstr("1.33 times as large")));
+  ExpectRefusal(RunOnIt(), kExitBadInput,
+                AllOf(HasSubstr("board.yaml"), testing::ContainsRegex("1\\.3[34] times as large")));
+}
+
+// A centimetre more on the tags with the same space between: 0.97 in the ratio of size and pitch.
+TEST_F(BoardImages, RefuseATagSizeThatIsWrongByLittle) {
+  folder_.Write("board.yaml", Replaced(kBoardYaml, "0.04", "0.045"));
+  ExpectRefusal(RunOnIt(), kExitBadInput,
+                testing::ContainsRegex("contradict: they are 0\\.97[0-9] times as large"));
+}
+
+TEST_F(BoardImages, CountOnceEachHoweverTheyAreNamed) {
+  ExpectRefusal(RunLegible({"intrinsics", images().string(), (images() / "003.png").string(), "--board",
+                            board().string(), "--out", out().string()}),
+                kExitBadInput, HasSubstr("003.png: is named twice"));
+}
+
+TEST_F(BoardImages, RefuseAGuessOfAnotherSizeOrOfNothing) {
+  folder_.Write("guess.yaml", CameraInfoText({Camera{1280, 960, 1200, 1200, 640, 480}, std::nullopt, {}}));
+  ExpectRefusal(RunOnIt({"--guess", (folder_.path() / "guess.yaml").string()}), kExitBadInput,
+                HasSubstr("guess.yaml: is a camera of 1280 x 960 px"));
+  ExpectRefusal(RunOnIt({"--guess", "-5"}), kExitBadInput, HasSubstr("--guess"));
 }
 
 TEST_F(BoardImages, RefuseAHopelessGuess) {
@@ -200,6 +221,16 @@ TEST_F(BoardImages, RefuseANameThatIsNotThere) {
   ExpectRefusal(
       RunLegible({"intrinsics", "nowhere.png", "--board", board().string(), "--out", out().string()}),
       kExitBadInput, HasSubstr("nowhere.png: is not there"));
+}
+
+// --- Together with the legs. -----------------------------------------------------------------------------
+
+// Its images need not be of the session's camera for that: the sizes are looked at first.
+TEST_F(BoardImages, OfAnotherSizeThanTheSessionsAreRefusedByCalibrate) {
+  const std::string session = LEGIBLE_SOURCE_DIR "/datasets/hexapod";
+  ExpectRefusal(RunLegible({"calibrate", session, "--with-board", images().string(), "--board",
+                            board().string(), "--out", out().string()}),
+                kExitBadInput, AllOf(HasSubstr("000.png: is 640 x 480 px"), HasSubstr("1280 x 960")));
 }
 
 // --- Corners from a file: a real, very wide lens. --------------------------------------------------------
@@ -245,11 +276,18 @@ TEST_F(WideLens, IsReportedNotToBeOneOfFiveCoefficients) {
               HasSubstr("the lens model does not fit"));
 }
 
+TEST_F(WideLens, IsReportedNotToBeOneOfFiveCoefficientsWhereOutliersAreLeftOutToo) {
+  const json found = RunOnIt({});
+  EXPECT_TRUE(found["cross_validation"]["misfit"].get<bool>());
+}
+
 TEST_F(WideLens, LeavesNoCornerOutUncounted) {
   const json found = RunOnIt({"--lens", "rational"});
   EXPECT_GT(found["corners_left_out"].get<int>(), 0);
-  EXPECT_EQ(found["corners_left_out"].get<int>() + found["corners_used"].get<int>(),
-            18600 - 3);  // 3 are marked
+  EXPECT_EQ(found["corners_left_out"].get<int>() + found["corners_used"].get<int>() +
+                found["corners_not_measured"].get<int>(),
+            18600);
+  EXPECT_EQ(found["corners_not_measured"], 3);  // marked in the file
   EXPECT_NEAR(found["camera"]["fx"], 2070.484, 3);
 }
 

@@ -29,8 +29,9 @@ struct Problem {
 Problem ReadProblem() {
   const std::filesystem::path folder = std::filesystem::path(LEGIBLE_SOURCE_DIR) / "datasets/wide-lens";
   Problem problem{ReadBoard(folder / "board.yaml"), {}};
-  problem.input = {PointsOf(problem.board), ReadCorners(folder / "corners.csv", problem.board, true), 6016,
-                   4016};
+  problem.input = {PointsOf(problem.board), {}, 6016, 4016};
+  for (ReadView& read : ReadCorners(folder / "corners.csv", problem.board, true))
+    problem.input.views.push_back(std::move(read.view));
   return problem;
 }
 

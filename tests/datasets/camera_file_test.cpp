@@ -69,6 +69,39 @@ TEST(CameraFile, RoundTripIsExactForEveryLens) {
   }
 }
 
+// 4 + 5 square, of a random covariance; of rank 7 where `rank` says so.
+Eigen::MatrixXd SomeInformation(std::mt19937_64& generator, Eigen::Index rank) {
+  Eigen::MatrixXd root(rank, 9);
+  for (double& value : root.reshaped()) value = Uniform(generator, -1, 1);
+  const Eigen::MatrixXd information = root.transpose() * root;
+  return information.selfadjointView<Eigen::Lower>();
+}
+
+TEST(CameraFile, KeepsTheInformationOfABoardToTheBit) {
+  const TemporaryFolder folder;
+  std::mt19937_64 generator = TestGenerator();
+  for (const Eigen::Index rank : {9, 7}) {
+    const CameraFile file{DesktopCamera(true), std::nullopt, SomeInformation(generator, rank)};
+    const CameraFile again = ReadCamera(folder.Write("camera.yaml", CameraInfoText(file)));
+    EXPECT_EQ(again.information, file.information);
+  }
+}
+
+TEST(CameraFile, RefusesAnInformationThatIsNone) {
+  const TemporaryFolder folder;
+  std::mt19937_64 generator = TestGenerator();
+  CameraFile file{DesktopCamera(true), std::nullopt, SomeInformation(generator, 9)};
+  const auto complaint = [&] {
+    const auto path = folder.Write("camera.yaml", CameraInfoText(file));
+    return InputErrorOf([&] { ReadCamera(path); });
+  };
+  file.information(1, 0) = file.information(0, 1) =
+      2 * std::sqrt(file.information(0, 0) * file.information(1, 1));
+  EXPECT_THAT(complaint(), testing::HasSubstr("information is no inverse covariance"));
+  file.information.conservativeResize(8, 8);
+  EXPECT_THAT(complaint(), testing::HasSubstr("information"));
+}
+
 TEST(CameraFile, NoneOrNothingIsThePinhole) {
   const TemporaryFolder folder;
   const std::string ros = Replaced(Replaced(kRos, "  cols: 5\n", "  cols: 0\n"),

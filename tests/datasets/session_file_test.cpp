@@ -101,6 +101,19 @@ TEST_F(SessionFile, EveryPieceOfPriorKnowledgeHasItsKey) {
   EXPECT_EQ(known.distortion, 8);
 }
 
+TEST_F(SessionFile, KnowsOfTheCameraWhatABoardToldAndRefusesItTwice) {
+  Session session = ReadSession(folder_.path());
+  session.known.focal_length_px.reset();
+  session.known.camera_information = Eigen::MatrixXd::Identity(9, 9);
+  WriteSession(folder_.path(), session);
+  EXPECT_EQ(ReadSession(folder_.path()).known.camera_information, session.known.camera_information);
+  session.known.focal_length_px = 2;
+  WriteSession(folder_.path(), session);
+  EXPECT_THAT(
+      InputErrorOf([&] { ReadSession(folder_.path()); }),
+      testing::AllOf(testing::HasSubstr("known.focal_length_px is said"), testing::HasSubstr("of a board")));
+}
+
 TEST_F(SessionFile, NothingMayBeKnown) {
   folder_.Write("session.yaml",
                 Replaced(kSessionYaml, "  joint_reading_m: 2.0e-5\n", "  # joint_reading_m: 2.0e-5\n"));

@@ -171,5 +171,30 @@ TEST(CalibrateCamera, LeavesOutAViewWithAReason) {
   EXPECT_THAT(found.views[7].left_out, HasSubstr("one line"));
 }
 
+// A view that another board was taken for, or that moved while it was taken: the others decide.
+TEST(CalibrateCamera, LeavesOutAViewThatContradictsTheOthers) {
+  BoardCalibrationInput input = Seen(LensModel::kBrownConrady, {.views = 12, .noise_px = 0.1});
+  std::mt19937_64 generator = TestGenerator();
+  for (BoardCorner& corner : input.views[5].corners)
+    corner.pixel += UniformVector(generator, -9, 9).head<2>();
+  const BoardCalibration found = CalibrateCamera(input, {});
+  ASSERT_EQ(found.status, BoardCalibrationStatus::kConverged) << found.message;
+  EXPECT_THAT(found.views[5].left_out, HasSubstr("contradicts the others"));
+  EXPECT_NEAR(found.noise_factor, 0.1, 0.01);
+  EXPECT_NEAR(found.camera.fx_px, BoardCamera(LensModel::kBrownConrady).fx_px,
+              4 * std::sqrt(found.information.covariance(0, 0)));
+}
+
+TEST(CalibrateCamera, LeavesOutAViewThatNoPoseExplains) {
+  BoardCalibrationInput input = Seen(LensModel::kBrownConrady, {.views = 12, .noise_px = 0.1});
+  std::vector<BoardCorner>& corners = input.views[5].corners;
+  for (size_t k = 0; k < corners.size() / 2; ++k)  // in each other's places
+    std::swap(corners[k].pixel, corners[corners.size() - 1 - (7 * k) % (corners.size() / 2)].pixel);
+  const BoardCalibration found = CalibrateCamera(input, {});
+  ASSERT_EQ(found.status, BoardCalibrationStatus::kConverged) << found.message;
+  EXPECT_NE(found.views[5].left_out, "");
+  EXPECT_NEAR(found.noise_factor, 0.1, 0.01);
+}
+
 }  // namespace
 }  // namespace legible

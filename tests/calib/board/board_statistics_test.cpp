@@ -140,8 +140,14 @@ TEST_P(CameraStatistics, ScatterMeetsTheBoundAndTheCovarianceIsHonest) {
   EXPECT_LT(gap, 1.95 / std::sqrt(kRuns));
 }
 
+std::string NameOf(const testing::TestParamInfo<LensModel>& lens) {
+  if (lens.param == LensModel::kPinhole) return "Pinhole";
+  return lens.param == LensModel::kFisheye ? "Fisheye" : "BrownConrady";
+}
+
 INSTANTIATE_TEST_SUITE_P(Lenses, CameraStatistics,
-                         testing::Values(LensModel::kPinhole, LensModel::kFisheye, LensModel::kBrownConrady));
+                         testing::Values(LensModel::kPinhole, LensModel::kFisheye, LensModel::kBrownConrady),
+                         NameOf);
 
 TEST(CameraStatistics, TwoPercentGrossOutliersCostLessThanTenPercent) {
   const Experiment clean(LensModel::kBrownConrady), spoilt(LensModel::kBrownConrady, 0.02);
