@@ -130,7 +130,7 @@ Camera ReadCameraInfo(const YamlValue& section) {
 // Rounding of a matrix that is singular may leave it a little negative.
 Eigen::MatrixXd InformationFromYaml(const YamlValue& section, const Camera& camera) {
   constexpr double kRounding = 1e-9;
-  const Eigen::MatrixXd information = SymmetricFromYaml(section, 4 + static_cast<size_t>(camera.lens));
+  Eigen::MatrixXd information = SymmetricFromYaml(section, 4 + static_cast<size_t>(camera.lens));
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * information * scale.asDiagonal())

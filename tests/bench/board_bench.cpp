@@ -92,6 +92,7 @@ nlohmann::json RunMrcal(const Problem& problem, const BoardCalibration& start) {
 double MedianSeconds(const Problem& problem, const BoardCalibration& start,
                      const BoardCalibrationOptions& options) {
   std::vector<double> seconds;
+  seconds.reserve(kRepetitions);
   for (int i = 0; i < kRepetitions; ++i)
     seconds.push_back(RefineCamera(problem.input, start, options).seconds);
   std::nth_element(seconds.begin(), seconds.begin() + kRepetitions / 2, seconds.end());

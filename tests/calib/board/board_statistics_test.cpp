@@ -108,6 +108,7 @@ double PooledRatio(const std::vector<Estimate>& estimates, const Eigen::VectorXd
 double KolmogorovSmirnov(const std::vector<Estimate>& estimates, double freedom) {
   const boost::math::chi_squared expected(freedom);
   std::vector<double> values;
+  values.reserve(estimates.size());
   for (const Estimate& estimate : estimates) values.push_back(cdf(expected, estimate.squared_error));
   std::sort(values.begin(), values.end());
   double gap = 0;
