@@ -191,6 +191,7 @@ BoardCalibration CameraCalibrator::NotFlat() {
 
 std::vector<ViewObservation> CameraCalibrator::Observations() const {
   std::vector<ViewObservation> observations;
+  observations.reserve(views_.size());
   for (const UsedView& view : views_) observations.push_back(view.observation);
   return observations;
 }

@@ -62,6 +62,7 @@ struct LayoutFit {
 LayoutFit FitLayout(const std::vector<SeenTags>& views, const std::vector<Eigen::Vector3d>& layout,
                     const BoardCalibrationInput& input, bool may_bend) {
   std::vector<ViewObservation> observed;
+  observed.reserve(views.size());
   for (const SeenTags& tags : views) observed.push_back(CentresOf(tags, layout));
   LayoutFit fit{1, Straighten(observed, input.width_px, input.height_px, may_bend)};
   std::vector<double> shares;

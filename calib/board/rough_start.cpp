@@ -72,6 +72,7 @@ BoardProblem RoughlySolved(BoardProblem problem) {
 BoardProblem With(const BoardProblem& all, const std::vector<size_t>& some) {
   BoardProblem few = all;
   few.views.clear();
+  few.views.reserve(some.size());
   for (const size_t i : some) few.views.push_back(all.views[i]);
   return few;
 }
