@@ -31,7 +31,7 @@ Camera GuessOf(const IntrinsicsSettings& settings, const BoardCalibrationInput& 
             settings.lens,
             Distortion::Zero()};
   }
-  const Camera camera = ReadCamera(*settings.guess).camera;
+  Camera camera = ReadCamera(*settings.guess).camera;
   if (camera.width_px != input.width_px || camera.height_px != input.height_px)
     throw InputError(*settings.guess, 0,
                      fmt::format("is a camera of {} x {} px, and the images have {} x {}", camera.width_px,

@@ -145,8 +145,10 @@ TEST(CalibrateCamera, RefusesBoardsParallelToTheImage) {
 
 TEST(CalibrateCamera, RefusesABoardThatIsLaidOutOtherwise) {
   BoardCalibrationInput input = Seen(LensModel::kBrownConrady, {.views = 12, .noise_px = 0.1});
-  for (size_t i = 0; i < input.points_in_board_m.size(); ++i)  // as if it had 8 columns instead of 9
-    input.points_in_board_m[i] = {0.03 * static_cast<double>(i % 8), -0.03 * static_cast<double>(i / 8), 0};
+  for (size_t i = 0; i < input.points_in_board_m.size(); ++i) {
+    const size_t column = i % 8, row = i / 8;  // as if it had 8 columns instead of 9
+    input.points_in_board_m[i] = {0.03 * static_cast<double>(column), -0.03 * static_cast<double>(row), 0};
+  }
   EXPECT_EQ(CalibrateCamera(input, {}).status, BoardCalibrationStatus::kNotFlat);
 }
 
