@@ -96,6 +96,7 @@ TEST(CalibrateCamera, FindsTheBendOfABoard) {
   BoardWarp bent = FlatOver(Points());
   bent.bend_m = {1e-3, 0.5e-3};
   std::vector<Eigen::Vector3d> bent_points;
+  bent_points.reserve(Points().size());
   for (const Eigen::Vector3d& point : Points())
     bent_points.push_back(point + Eigen::Vector3d(0, 0, bent.ShapeAt(point).dot(bent.bend_m)));
   const BoardCalibrationInput input = InputOf(SeeBoard(generator, BoardCamera(LensModel::kBrownConrady),

@@ -98,6 +98,7 @@ TEST(SolveBoard, FindsTheExactCameraPosesAndBendFromNearby) {
     BoardWarp bent = FlatOver(points);
     bent.bend_m = {1.5e-3, -0.8e-3};
     std::vector<Eigen::Vector3d> bent_points;
+    bent_points.reserve(points.size());
     for (const Eigen::Vector3d& point : points)
       bent_points.push_back(point + Eigen::Vector3d(0, 0, bent.ShapeAt(point).dot(bent.bend_m)));
     const SyntheticBoardViews seen = SeeBoard(generator, truth, bent_points, {.views = 12});

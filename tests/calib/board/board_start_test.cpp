@@ -11,6 +11,7 @@ namespace {
 std::vector<ViewObservation> Observe(const SyntheticBoardViews& seen,
                                      const std::vector<Eigen::Vector3d>& points) {
   std::vector<ViewObservation> views;
+  views.reserve(seen.views.size());
   for (const BoardView& view : seen.views) {
     ViewObservation one;
     for (const BoardCorner& corner : view.corners) {
