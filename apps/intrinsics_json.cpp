@@ -86,9 +86,7 @@ void AddFit(const IntrinsicsRun& run, ordered_json& json) {
   json["neighbour_noise_px"] = neighbours_px ? ordered_json(*neighbours_px) : ordered_json();
   json["views_used"] = ViewsUsed(result);
   json["views_left_out"] = ViewsLeftOut(run);
-  int corners = 0;
-  for (const ViewFit& view : result.views) corners += static_cast<int>(view.weight.size());
-  json["corners_used"] = corners - result.corners_left_out;
+  json["corners_used"] = CornersOf(result) - result.corners_left_out;
   json["corners_left_out"] = result.corners_left_out;
   json["corners_not_measured"] = CornersNotMeasured(run);
   json["corners_weighed_down"] = CornersWeighedDown(result);

@@ -20,12 +20,6 @@ constexpr double kSmoothMisfit = 1.25;  // of the corners' noise over that among
 
 double Degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
-int CornersSeen(const IntrinsicsRun& run) {
-  int count = 0;
-  for (const ViewFit& view : run.result.views) count += static_cast<int>(view.weight.size());
-  return count;
-}
-
 // Which part of the image, of thirds: "in the lower left".
 std::string PlaceText(const Eigen::Vector2d& pixel, const Camera& camera) {
   const char* const rows[] = {"upper", "middle", "lower"};
@@ -94,6 +88,12 @@ int CornersNotMeasured(const IntrinsicsRun& run) {
   return static_cast<int>(count);
 }
 
+int CornersOf(const BoardCalibration& result) {
+  int count = 0;
+  for (const ViewFit& view : result.views) count += static_cast<int>(view.weight.size());
+  return count;
+}
+
 int CornersWeighedDown(const BoardCalibration& result) {
   int count = 0;
   for (const ViewFit& view : result.views)
@@ -108,7 +108,7 @@ std::vector<std::string> Warnings(const IntrinsicsRun& run) {
   AddLensWarnings(run, warnings);
   AddNoiseWarning(run, warnings);
   AddCoefficientWarning(run, warnings);
-  const int views = ViewsUsed(run.result), corners = CornersSeen(run);
+  const int views = ViewsUsed(run.result), corners = CornersOf(run.result);
   if (run.result.distinct_views < views)
     warnings.push_back(
         fmt::format("{} of {} views show the board where another does: they count as if each had its "

@@ -29,6 +29,7 @@ std::string DistanceText(const IntrinsicsRun& run, double distance_m);
 int CornersNotMeasured(const IntrinsicsRun& run);
 
 int ViewsUsed(const BoardCalibration& result);
+int CornersOf(const BoardCalibration& result);           // of the views that have a part, outliers too
 int CornersWeighedDown(const BoardCalibration& result);  // weights between 0 and 1
 
 }  // namespace legible

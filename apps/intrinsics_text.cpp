@@ -24,15 +24,14 @@ std::string ParameterTable(const BoardCalibration& result) {
 
 std::string FitText(const IntrinsicsRun& run) {
   const BoardCalibration& result = run.result;
-  int corners = 0;
-  for (const ViewFit& view : result.views) corners += static_cast<int>(view.weight.size());
   std::string text =
       fmt::format("{} of {} ({}), {} x {} px, {} lens\n", Plural(ViewsUsed(result), "view"), run.board.name,
                   BoardText(run.board), run.input.width_px, run.input.height_px, LensName(run.settings.lens));
   text += fmt::format(
       "  {} corners, {} left out as outliers, {} not measured; residual {:.3f} px rms, noise {:.3f} px a "
       "coordinate\n",
-      corners, result.corners_left_out, CornersNotMeasured(run), result.rms_px, result.corner_sigma_px);
+      CornersOf(result), result.corners_left_out, CornersNotMeasured(run), result.rms_px,
+      result.corner_sigma_px);
   for (size_t i = 0; i < result.views.size(); ++i)
     if (!result.views[i].left_out.empty())
       text += fmt::format("  without {}: {}\n", run.input.views[i].name, result.views[i].left_out);

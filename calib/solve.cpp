@@ -6,6 +6,7 @@
 
 #include "calib/board/view_cost.h"
 #include "calib/estimation_problem.h"
+#include "calib/progress_callback.h"
 
 namespace legible {
 namespace {
@@ -210,18 +211,6 @@ class PlacementCost final : public AllLegsCost {
  private:
   const EstimationProblem& problem_;
   const TagPlacement& placement_;
-};
-
-class ProgressCallback final : public ceres::IterationCallback {
- public:
-  explicit ProgressCallback(const std::function<void(int, double)>& report) : report_(report) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    report_(summary.iteration, summary.cost);
-    return ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const std::function<void(int, double)>& report_;
 };
 
 // Marks the entries [first, first + size) of the shared parameters that are not free as constant in their

@@ -4,21 +4,10 @@
 
 #include "calib/board/board_problem.h"
 #include "calib/board/view_cost.h"
+#include "calib/progress_callback.h"
 
 namespace legible {
 namespace {
-
-class ProgressCallback final : public ceres::IterationCallback {
- public:
-  explicit ProgressCallback(const std::function<void(int, double)>& report) : report_(report) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    report_(summary.iteration, summary.cost);
-    return ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const std::function<void(int, double)>& report_;
-};
 
 ceres::Solver::Options SolverOptions(const BoardSolveOptions& options) {
   ceres::Solver::Options solver;

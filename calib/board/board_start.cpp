@@ -16,7 +16,6 @@ namespace {
 // Of the division model, in units of half the image's diagonal; at -1 the corner of the image is 90 degrees
 // off the axis.
 constexpr double kMostBarrel = -0.96, kMostPincushion = 0.4, kCoarseStep = 0.04;
-constexpr size_t kViewsForSearch = 24;
 
 Eigen::Vector2d Straightened(double lambda, const Eigen::Vector2d& p) {
   return p / (1 + lambda * p.squaredNorm());
@@ -107,19 +106,6 @@ double Unevenness(const std::vector<PlanarPoints>& views, double lambda) {
   return errors.empty() ? 0 : MedianOf(errors);
 }
 
-// The views with the most corners; equal ones from all over the sequence.
-std::vector<PlanarPoints> ForSearch(const std::vector<PlanarPoints>& all) {
-  std::vector<PlanarPoints> sorted;
-  const size_t stride = std::max<size_t>(1, all.size() / kViewsForSearch);
-  for (size_t first = 0; first < stride; ++first)
-    for (size_t i = first; i < all.size(); i += stride) sorted.push_back(all[i]);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const PlanarPoints& a, const PlanarPoints& b) {
-    return a.on_board.size() > b.on_board.size();
-  });
-  sorted.resize(std::min(sorted.size(), kViewsForSearch));
-  return sorted;
-}
-
 double BestLambda(const std::vector<PlanarPoints>& views) {
   double best = 0, least = Unevenness(views, 0);
   const auto consider = [&](double lambda) {
@@ -180,9 +166,25 @@ StraightenedViews Straighten(const std::vector<ViewObservation>& views, int widt
   points.reserve(views.size());
   for (const ViewObservation& view : views)
     points.push_back(PointsOf(view, result.centre_px, result.unit_px));
-  if (may_bend) result.lambda = BestLambda(ForSearch(points));
+  if (may_bend) {
+    std::vector<PlanarPoints> some;
+    for (const size_t i : ViewsWithMostCorners(views)) some.push_back(points[i]);
+    result.lambda = BestLambda(some);
+  }
   for (const PlanarPoints& one : points) result.views.push_back(HomographyOf(one, result.lambda));
   return result;
+}
+
+std::vector<size_t> ViewsWithMostCorners(const std::vector<ViewObservation>& views) {
+  constexpr size_t kMost = 24;
+  std::vector<size_t> order;
+  const size_t stride = std::max<size_t>(1, views.size() / kMost);
+  for (size_t first = 0; first < stride; ++first)
+    for (size_t i = first; i < views.size(); i += stride) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return views[a].pixels.size() > views[b].pixels.size(); });
+  order.resize(std::min(order.size(), kMost));
+  return order;
 }
 
 double NeighbourDistance_px(const ViewObservation& view) {

@@ -34,6 +34,10 @@ struct StraightenedViews {
 StraightenedViews Straighten(const std::vector<ViewObservation>& views, int width_px, int height_px,
                              bool may_bend);
 
+// Some views for what would take long with all: those with the most corners, equal ones from all over the
+// sequence. Indices into `views`.
+std::vector<size_t> ViewsWithMostCorners(const std::vector<ViewObservation>& views);
+
 // How far neighbouring corners of a view's list are from each other in the image, the median.
 double NeighbourDistance_px(const ViewObservation& view);
 

@@ -10,22 +10,9 @@ namespace legible {
 namespace {
 
 constexpr double kFocalLengths[] = {0.35, 0.6, 1, 1.7, 3, 6, 12};  // 141 to 10 degrees across the diagonal
-constexpr size_t kViewsOfRoughSolve = 24;
 constexpr double kOutlierOfStart = 8;  // times the median error: takes no part in the first solve
 constexpr double kUnexplained = 0.25;  // of the distance of neighbouring corners
 constexpr int kSteps = 15;
-
-// The views with the most corners, from all over the sequence.
-std::vector<size_t> ViewsOfRoughSolve(const std::vector<ViewObservation>& views) {
-  std::vector<size_t> order;
-  const size_t stride = std::max<size_t>(1, views.size() / kViewsOfRoughSolve);
-  for (size_t first = 0; first < stride; ++first)
-    for (size_t i = first; i < views.size(); i += stride) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return views[a].pixels.size() > views[b].pixels.size(); });
-  order.resize(std::min(order.size(), kViewsOfRoughSolve));
-  return order;
-}
 
 // Distances of the corners from where the model has them, px; infinite for a view it cannot produce.
 std::vector<double> DistancesOf(const Camera& camera, const BoardWarp& warp, ViewObservation view) {
@@ -86,7 +73,7 @@ std::optional<BoardProblem> RoughStart(const StraightenedViews& straightened, Le
   std::vector<double> focal_lengths(std::begin(kFocalLengths), std::end(kFocalLengths));
   focal_lengths.insert(focal_lengths.end(), more_focal_lengths.begin(), more_focal_lengths.end());
   if (const auto zhang = FocalLengthOf(straightened)) focal_lengths.push_back(*zhang);
-  const std::vector<size_t> some = ViewsOfRoughSolve(views);
+  const std::vector<size_t> some = ViewsWithMostCorners(views);
   std::optional<BoardProblem> best;  // of some views
   double least_px = std::numeric_limits<double>::infinity();
   for (const double focal_length : focal_lengths) {
