@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -52,19 +52,27 @@ bool AreOnOneLine(const ViewObservation& view) {
   return is_narrow(on_board) || is_narrow(in_image);
 }
 
+// The pixel of each of the board's points in a view; NaN where it is not seen.
+using PixelOfPoint = std::vector<Eigen::Vector2d>;
+
+PixelOfPoint PixelsByPoint(const BoardView& view, size_t points) {
+  PixelOfPoint pixels(points, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  for (const BoardCorner& corner : view.corners) pixels[static_cast<size_t>(corner.point)] = corner.pixel;
+  return pixels;
+}
+
 // Whether two views show the board in the same place, by the corners that both have.
-bool AreSame(const BoardView& a, const BoardView& b, double tolerance_px) {
-  std::map<int, Eigen::Vector2d> of_b;
-  for (const BoardCorner& corner : b.corners) of_b[corner.point] = corner.pixel;
-  double squares = 0, common = 0;
-  for (const BoardCorner& corner : a.corners) {
-    const auto same = of_b.find(corner.point);
-    if (same == of_b.end()) continue;
-    squares += (corner.pixel - same->second).squaredNorm();
+bool AreSame(const PixelOfPoint& a, const PixelOfPoint& b, double tolerance_px) {
+  double squares = 0, common = 0, of_a = 0, of_b = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const bool in_a = !std::isnan(a[i].x()), in_b = !std::isnan(b[i].x());
+    of_a += in_a;
+    of_b += in_b;
+    if (!in_a || !in_b) continue;
+    squares += (a[i] - b[i]).squaredNorm();
     common += 1;
   }
-  const double fewer = static_cast<double>(std::min(a.corners.size(), b.corners.size()));
-  return common > kCommonCorners * fewer && squares <= tolerance_px * tolerance_px * common;
+  return common > kCommonCorners * std::min(of_a, of_b) && squares <= tolerance_px * tolerance_px * common;
 }
 
 // A view that has a part.
@@ -159,12 +167,12 @@ void CameraCalibrator::AddView(size_t view) {
 
 int CameraCalibrator::DistinctViews() const {
   const double tolerance_px = kSameView * std::hypot(input_.width_px, input_.height_px);
-  std::vector<const BoardView*> distinct;
+  std::vector<PixelOfPoint> distinct;
   for (const UsedView& view : views_) {
-    const BoardView& seen = input_.views[view.source];
+    PixelOfPoint seen = PixelsByPoint(input_.views[view.source], input_.points_in_board_m.size());
     if (std::none_of(distinct.begin(), distinct.end(),
-                     [&](const BoardView* other) { return AreSame(seen, *other, tolerance_px); }))
-      distinct.push_back(&seen);
+                     [&](const PixelOfPoint& other) { return AreSame(seen, other, tolerance_px); }))
+      distinct.push_back(std::move(seen));
   }
   return static_cast<int>(distinct.size());
 }
