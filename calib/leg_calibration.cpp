@@ -167,7 +167,7 @@ void Calibrator::AddEdge(size_t unit, const EdgeObservation& observation) {
 }
 
 SolveSummary Calibrator::SolveRound() {
-  tags_.SetSigmas();
+  tags_.SetScales();
   for (PoseUnit& unit : problem_.units)
     for (LegObservation& leg : unit.legs) leg.edges.clear();
   for (size_t i = 0; i < edges_.size(); ++i)
@@ -217,7 +217,7 @@ bool Calibrator::Reweight(int round) {
     noise_ = EstimateNoise(edges_, std::clamp(fitted, 0.0, static_cast<double>(UnknownCount())));
   }
   UpdateWeights(edges_, noise_);
-  const double tag_sigma_before_px = tags_.sigma_px();
+  const double tag_scale_before = tags_.scale();
   double change = tags_.Reweight(round < kRoundsByMedian) + readings_.Reweight();
   for (size_t i = 0; i < edges_.size(); ++i)
     change += (edges_[i].weight - weights_before[i]).cwiseAbs().sum();
@@ -227,7 +227,7 @@ bool Calibrator::Reweight(int round) {
   const EdgeNoise now = MeanNoise(noise_);
   return round > kRoundsByMedian && steady(before.sample, now.sample) &&
          steady(before.shift, now.shift, kSteadyCommon) && steady(before.tilt, now.tilt, kSteadyCommon) &&
-         steady(tag_sigma_before_px, tags_.sigma_px(), kSteadyCommon) && change <= kSteadyWeight * samples_;
+         steady(tag_scale_before, tags_.scale(), kSteadyCommon) && change <= kSteadyWeight * samples_;
 }
 
 double Calibrator::Rms() const {
@@ -286,7 +286,7 @@ LegCalibration Calibrator::Result() const {
                             input_.drawing.legs[i].joint_range_m};
     result.shading_px[i] = leg.segment<4>(leg_parameter::kShading);
   }
-  result.tag_sigma_px = tags_.sigma_px();
+  result.tag_sigma_px = tags_.Sigma_px();
   result.noise = MeanNoise(noise_);
   result.noise_by_edge = noise_;
   result.rms_px = Rms();

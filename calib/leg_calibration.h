@@ -126,7 +126,7 @@ struct LegCalibration {
   std::vector<OutlyingReading> outlying_readings;
   std::vector<EdgeResidualSet> edges;  // residual and weight of every sample
   std::vector<TagGroupFit> tags;       // of each group of the input; only where converged
-  double tag_sigma_px = 0;  // of a coordinate of a corner, as the residuals show it; 0 without tags
+  double tag_sigma_px = 0;  // of a coordinate of a corner in the median, as residuals show; 0 without tags
   int samples = 0;
   int iterations = 0;
   bool weights_steady = true;  // false: noise and weights still changed when the rounds were used up

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "calib/image_information.h"
@@ -111,18 +113,21 @@ TagPlacement PlacementOf(const TagGroup& group, const Rigid3& camera_from_base) 
 // Each tag of a group on the base once, where the images have it in the median.
 void AppendBaseTags(const ObservedTagGroup& observed, size_t group, std::vector<TagObservation>& tags) {
   for (const Tag& tag : observed.group.tags) {
-    std::vector<std::array<Eigen::Vector2d, 4>> seen;
+    std::vector<TagDetection> seen;
     for (const auto& image : observed.detections)
-      for (const TagDetection& detection : image)
-        if (detection.id == tag.id) seen.push_back(detection.corners_px);
-    if (!seen.empty()) tags.push_back({group, tag.corners_m, MedianCorners(seen), 1});
+      std::copy_if(image.begin(), image.end(), std::back_inserter(seen),
+                   [&](const TagDetection& detection) { return detection.id == tag.id; });
+    if (seen.empty()) continue;
+    const TagCorners median = MedianCorners(seen);
+    tags.push_back({group, tag.corners_m, median.corners_px, median.covariances_px2});
   }
 }
 
 void AppendPlatformTags(const ObservedTagGroup& observed, size_t group, PoseUnit& unit) {
   for (const Tag& tag : observed.group.tags)
     for (const TagDetection& detection : observed.detections[static_cast<size_t>(unit.image)])
-      if (detection.id == tag.id) unit.tags.push_back({group, tag.corners_m, detection.corners_px, 1});
+      if (detection.id == tag.id)
+        unit.tags.push_back({group, tag.corners_m, detection.corners_px, detection.covariances_px2});
 }
 
 // The poses of one image that has edges, with the joint readings.

@@ -1,6 +1,7 @@
 #include "calib/session_calibration.h"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -8,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 #include <stdexcept>
 
@@ -16,6 +16,7 @@
 #include "calib/held_out.h"
 #include "core/geometry/nearest_camera.h"
 #include "core/stopwatch.h"
+#include "core/vision/layout_tags.h"
 
 namespace legible {
 namespace {
@@ -146,15 +147,9 @@ class SessionCalibrator {
 
   void FindTags() {
     if (!session_.tags) return;
+    tbb::enumerable_thread_specific<LayoutTagDetector> detectors(*session_.tags);
     ForEachImage("finding tags", All(), [&](size_t i) {
-      if (!IsReadable(i)) return;
-      thread_local std::string family;
-      thread_local std::unique_ptr<TagDetector> detector;
-      if (!detector || family != session_.tags->family) {
-        detector = std::make_unique<TagDetector>(session_.tags->family);
-        family = session_.tags->family;
-      }
-      result_.images[i].tags = detector->Detect(images_[i]);
+      if (IsReadable(i)) result_.images[i].tags = detectors.local().Detect(images_[i]);
     });
   }
 

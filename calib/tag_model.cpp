@@ -1,8 +1,17 @@
 #include "calib/tag_model.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace legible {
+namespace {
+
+// L^-1 of covariance = L L^T.
+Eigen::Matrix2d Whitening(const Eigen::Matrix2d& covariance) {
+  return covariance.llt().matrixL().solve(Eigen::Matrix2d::Identity());
+}
+
+}  // namespace
 
 std::optional<TagResiduals> EvaluateTag(const Camera& camera, const TagPlacement& placement,
                                         const Vector6d& placement_displacement,
@@ -24,15 +33,13 @@ std::optional<TagResiduals> EvaluateTag(const Camera& camera, const TagPlacement
     }
     if (!(corner_in_camera.z() > 0)) return std::nullopt;
     const ProjectedPoint projected = ProjectWithJacobians(camera, corner_in_camera);
-    result.residual.segment<2>(row) = projected.pixel - observation.corners_px[k];
-    result.d_camera.middleRows<2>(row) = projected.d_camera;
-    result.d_placement.middleRows<2>(row) = projected.d_x * d_placement;
-    result.d_pose.middleRows<2>(row) = projected.d_x * d_pose;
+    const Eigen::Matrix2d whitening = Whitening(observation.covariances_px2[k]) / observation.sigma_scale;
+    result.error_px.segment<2>(row) = projected.pixel - observation.corners_px[k];
+    result.residual.segment<2>(row) = whitening * result.error_px.segment<2>(row);
+    result.d_camera.middleRows<2>(row) = whitening * projected.d_camera;
+    result.d_placement.middleRows<2>(row) = whitening * projected.d_x * d_placement;
+    result.d_pose.middleRows<2>(row) = whitening * projected.d_x * d_pose;
   }
-  result.residual /= observation.sigma_px;
-  result.d_camera /= observation.sigma_px;
-  result.d_placement /= observation.sigma_px;
-  result.d_pose /= observation.sigma_px;
   return result;
 }
 

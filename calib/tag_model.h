@@ -27,13 +27,15 @@ struct TagObservation {
   size_t group = 0;  // index of its TagPlacement
   std::array<Eigen::Vector3d, 4> corners_in_group_m;
   std::array<Eigen::Vector2d, 4> corners_px;
-  double sigma_px = 1;  // of each coordinate of each corner
+  std::array<Eigen::Matrix2d, 4> covariances_px2;  // of each corner, up to sigma_scale^2
+  double sigma_scale = 1;
 };
 
 inline constexpr int kTagRows = 8;  // x and y of four corners
 
-// Whitened residuals (dimensionless) of one tag: predicted less observed corners.
+// Residuals of one tag: predicted less observed corners. All but error_px are whitened (dimensionless).
 struct TagResiduals {
+  Eigen::Matrix<double, kTagRows, 1> error_px;
   Eigen::Matrix<double, kTagRows, 1> residual;
   Eigen::Matrix<double, kTagRows, kCameraParameterCount> d_camera;
   Eigen::Matrix<double, kTagRows, 6> d_placement;

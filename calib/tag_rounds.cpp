@@ -5,6 +5,7 @@
 #include <set>
 
 #include "calib/robust_weights.h"
+#include "core/vision/median.h"
 
 namespace legible {
 
@@ -30,32 +31,44 @@ std::optional<size_t> TagRounds::Evaluate() {
         sources_[i].unit != nullptr ? sources_[i].unit->camera_from_platform : Rigid3();
     const auto r = EvaluateTag(CameraOf(problem_), problem_.tag_placements[tag.group], Vector6d::Zero(),
                                camera_from_platform, Vector6d::Zero(), tag);
-    if (r)
-      errors_[i].error_px = r->residual * tag.sigma_px;
-    else if (!behind)
+    if (r) {
+      errors_[i].error = r->residual * tag.sigma_scale;
+      errors_[i].error_px = r->error_px;
+    } else if (!behind) {
       behind = tag.group;
+    }
   }
   return behind;
 }
 
 void TagRounds::Start() {
-  if (!errors_.empty()) sigma_px_ = MedianTagSigma(errors_);
+  if (!errors_.empty()) scale_ = MedianTagScale(errors_);
 }
 
 double TagRounds::Reweight(bool by_median) {
   if (errors_.empty()) return 0;
   const std::vector<TagErrors> before = errors_;
-  WeighTags(errors_, sigma_px_);
+  WeighTags(errors_, scale_);
   double change = 0;
   for (size_t i = 0; i < before.size(); ++i)
     change += kTagRows * std::abs(errors_[i].weight - before[i].weight);
-  sigma_px_ = by_median ? MedianTagSigma(errors_) : TagSigma(errors_, SeenGroups());
+  scale_ = by_median ? MedianTagScale(errors_) : TagScale(errors_, SeenGroups());
   return change;
 }
 
-void TagRounds::SetSigmas() {
+void TagRounds::SetScales() {
   for (size_t i = 0; i < sources_.size(); ++i)
-    sources_[i].tag->sigma_px = sigma_px_ * SigmaFactor(errors_[i].weight);
+    sources_[i].tag->sigma_scale = scale_ * SigmaFactor(errors_[i].weight);
+}
+
+double TagRounds::Sigma_px() const {
+  if (sources_.empty()) return 0;
+  std::vector<double> variances;
+  variances.reserve(4 * sources_.size());
+  for (const Source& source : sources_)
+    for (const Eigen::Matrix2d& covariance_px2 : source.tag->covariances_px2)
+      variances.push_back(covariance_px2.trace() / 2);
+  return scale_ * std::sqrt(MedianOf(std::move(variances)));
 }
 
 std::vector<TagGroupFit> TagRounds::Fits(const std::vector<ObservedTagGroup>& groups) const {

@@ -16,18 +16,19 @@ class TagRounds {
   explicit TagRounds(EstimationProblem& problem);
 
   int rows() const { return kTagRows * static_cast<int>(errors_.size()); }
-  double sigma_px() const { return sigma_px_; }  // of a coordinate of a corner; 0 without tags
-  size_t SeenGroups() const;                     // groups with a tag that has weight
+  double scale() const { return scale_; }  // by which the corners' own sigmas fall short; 0 without tags
+  double Sigma_px() const;                 // of a coordinate of a corner in the median; 0 without tags
+  size_t SeenGroups() const;               // groups with a tag that has weight
 
   // Finds the residuals where the problem stands. Returns the group of a tag that lies behind the camera
   // there, if any.
   std::optional<size_t> Evaluate();
-  // From the residuals: the first sigma, by their median, all weights still 1.
+  // From the residuals: the first scale, by their median, all weights still 1.
   void Start();
-  // From the residuals: the weights, then the sigma. Returns by how much the weights changed, in all rows.
+  // From the residuals: the weights, then the scale. Returns by how much the weights changed, in all rows.
   double Reweight(bool by_median);
-  // Gives each tag of the problem the sigma that its weight leaves it.
-  void SetSigmas();
+  // Gives each tag of the problem the scale of sigma that its weight leaves it.
+  void SetScales();
 
   // What became of each group.
   std::vector<TagGroupFit> Fits(const std::vector<ObservedTagGroup>& groups) const;
@@ -41,7 +42,7 @@ class TagRounds {
   EstimationProblem& problem_;
   std::vector<Source> sources_;
   std::vector<TagErrors> errors_;  // of the same tags
-  double sigma_px_ = 0;
+  double scale_ = 0;
 };
 
 }  // namespace legible

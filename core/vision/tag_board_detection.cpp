@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -14,35 +13,8 @@ namespace {
 constexpr std::array<const char*, 4> kCornerNames = {"bottom-left", "bottom-right", "top-right", "top-left"};
 constexpr double kLeastLikeness = 0.7;  // correlation of a tag's code with the image
 
-double DistanceFromTag_m(const Eigen::Vector3d& point, const Tag& tag) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& corner : tag.corners_m) nearest = std::min(nearest, (corner - point).norm());
-  return nearest;
-}
-
 Eigen::Vector2d MiddleOf(const std::array<Eigen::Vector2d, 4>& corners_px) {
   return (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]) / 4;
-}
-
-// Paper is light.
-double LevelAt(const TagPicture& picture, const Eigen::Vector2d& place) {
-  if (place.minCoeff() < 0 || place.maxCoeff() > picture.modules) return 1;
-  const auto column = static_cast<size_t>(place.x()), row = static_cast<size_t>(place.y());
-  return picture.is_light[row * static_cast<size_t>(picture.modules) + column] ? 1 : 0;
-}
-
-// The modules about a corner, along its edges to the next corner and to the one before.
-CornerCells CellsOf(const TagPicture& picture, size_t corner) {
-  const int low = picture.ring, high = picture.modules - picture.ring;
-  const Eigen::Vector2d at(corner == 1 || corner == 2 ? high : low, corner >= 2 ? low : high);  // column, row
-  const std::array<Eigen::Vector2d, 4> along = {Eigen::Vector2d(1, 0), {0, -1}, {-1, 0}, {0, 1}};
-  const Eigen::Vector2d& edge_1 = along[corner];
-  const Eigen::Vector2d edge_2 = -along[(corner + 3) % 4];
-  CornerCells cells;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      cells(row, column) = LevelAt(picture, at + (column - 1.5) * edge_1 + (row - 1.5) * edge_2);
-  return cells;
 }
 
 double Correlation(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
@@ -69,13 +41,6 @@ bool IsInside(const std::array<Eigen::Vector2d, 4>& corners_px, const GrayImage&
   });
 }
 
-// The tag with the corners that were fitted where those were; `fits` begins with its own.
-ReadTag Refined(ReadTag read, const CornerFit* fits) {
-  for (size_t i = 0; i < 4; ++i)
-    if (fits[i].status == CornerStatus::kFitted) read.corners_px[i] = fits[i].pixel;
-  return read;
-}
-
 bool IsFittedWhole(const CornerFit* fits) {
   return std::all_of(fits, fits + 4, [](const CornerFit& fit) {
     return fit.status == CornerStatus::kFitted && fit.contrast > 0;
@@ -93,9 +58,12 @@ std::vector<LeftOut> Joined(std::vector<LeftOut> a, const std::vector<LeftOut>& 
 TagBoardDetector::TagBoardDetector(const TagBoard& board)
     : board_(board), detector_(board.family, {.decimation = 1, .border_bits = board.border_bits}) {
   if (board.tags.empty()) throw std::invalid_argument("BoardDetector: the board has no tags");
+  patterns_.reserve(board.tags.size());
   for (size_t tag = 0; tag < board.tags.size(); ++tag) {
-    index_by_id_[board.tags[tag].id] = tag;
-    patterns_.push_back({PatternOf(tag, 0), PatternOf(tag, 1), PatternOf(tag, 2), PatternOf(tag, 3)});
+    const int id = board.tags[tag].id;
+    index_by_id_[id] = tag;
+    patterns_.push_back(PatternOf(board.tags[tag], board.tags, detector_.PictureOf(id),
+                                  {board.border_bits, board.has_corner_squares}));
   }
 }
 
@@ -114,7 +82,8 @@ BoardSighting TagBoardDetector::Detect(const GrayImage& image) const {
   std::vector<ReadTag> whole, partial;
   for (size_t i = 0; i < agreeing.tags.size(); ++i) {
     const CornerFit* const fits = &rough[4 * i];
-    (IsFittedWhole(fits) ? whole : partial).push_back(Refined(agreeing.tags[i], fits));
+    (IsFittedWhole(fits) ? whole : partial)
+        .push_back({agreeing.tags[i].tag, Refined(agreeing.tags[i].corners_px, fits)});
   }
   const Reading all = WithOthers(image, whole, partial, expectations);
   const std::vector<ExpectedCorner> expected = Expected(all.tags);
@@ -125,30 +94,6 @@ BoardSighting TagBoardDetector::Detect(const GrayImage& image) const {
       });
   sighting.left_out = Joined(Joined(std::move(left_out), all.left_out), sighting.left_out);
   return sighting;
-}
-
-TagBoardDetector::CornerPattern TagBoardDetector::PatternOf(size_t tag, size_t corner) const {
-  const std::array<Eigen::Vector3d, 4>& corners_m = board_.tags[tag].corners_m;
-  const TagPicture picture = detector_.PictureOf(board_.tags[tag].id);
-  const bool is_wide = board_.border_bits > 1;
-  CornerPattern pattern{{}, is_wide ? DarkWedge() : CellsOf(picture, corner), false};
-  if (board_.has_corner_squares) pattern.cells.topLeftCorner<2, 2>().setZero();
-  pattern.knows_beyond = !is_wide && !board_.has_corner_squares;
-  const double border = board_.border_bits / static_cast<double>(picture.modules - 2 * picture.ring);
-  for (size_t edge = 0; edge < 2; ++edge) {
-    const Eigen::Vector3d side_m = corners_m[(corner + (edge == 0 ? 1 : 3)) % 4] - corners_m[corner];
-    pattern.edges_m[edge] = side_m.head<2>() * std::min(border, Gap_m(tag, corner) / side_m.norm());
-  }
-  return pattern;
-}
-
-// From a corner to the nearest other tag.
-double TagBoardDetector::Gap_m(size_t tag, size_t corner) const {
-  double gap_m = std::numeric_limits<double>::infinity();
-  for (size_t other = 0; other < board_.tags.size(); ++other)
-    if (other != tag)
-      gap_m = std::min(gap_m, DistanceFromTag_m(board_.tags[tag].corners_m[corner], board_.tags[other]));
-  return gap_m;
 }
 
 TagBoardDetector::Reading TagBoardDetector::OwnTags(const std::vector<TagDetection>& detections) const {
@@ -219,7 +164,7 @@ std::optional<ReadTag> TagBoardDetector::LookFor(const GrayImage& image, const R
                                                  const CornerExpectations& expected) const {
   const std::vector<CornerFit> fits = FitCorners(image, Expected({predicted}), kDetectedSigma_px, expected);
   if (!IsFittedWhole(fits.data())) return std::nullopt;
-  const ReadTag seen = Refined(predicted, fits.data());
+  const ReadTag seen{predicted.tag, Refined(predicted.corners_px, fits.data())};
   if (Likeness(image, seen) < kLeastLikeness) return std::nullopt;
   return seen;
 }
@@ -263,20 +208,11 @@ double TagBoardDetector::Likeness(const GrayImage& image, const ReadTag& read) c
 // Four a tag.
 std::vector<ExpectedCorner> TagBoardDetector::Expected(const std::vector<ReadTag>& read) const {
   std::vector<ExpectedCorner> expected;
-  for (const ReadTag& one : read) {
-    const TagPlane plane(board_.tags[one.tag].corners_m, one.corners_px);
-    for (size_t c = 0; c < 4; ++c) {
-      const CornerPattern& pattern = patterns_[one.tag][c];
-      const Eigen::Vector2d pixel = one.corners_px[c], place_m = board_.tags[one.tag].corners_m[c].head<2>();
-      ExpectedCorner corner{
-          static_cast<int>(4 * one.tag + c), {pixel, {}, pattern.cells, pattern.knows_beyond}, {}};
-      for (size_t edge = 0; edge < 2; ++edge) {
-        corner.site.edges_px[edge] = plane * (place_m + pattern.edges_m[edge]) - pixel;
-        corner.sides_px[edge] = (one.corners_px[(c + (edge == 0 ? 1 : 3)) % 4] - pixel).norm();
-      }
+  expected.reserve(4 * read.size());
+  for (const ReadTag& one : read)
+    for (const ExpectedCorner& corner :
+         ExpectedCornersOf(patterns_[one.tag], one.corners_px, static_cast<int>(4 * one.tag)))
       expected.push_back(corner);
-    }
-  }
   return expected;
 }
 

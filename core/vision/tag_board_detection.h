@@ -10,6 +10,7 @@
 #include "core/vision/board_corners.h"
 #include "core/vision/gray_image.h"
 #include "core/vision/tag_agreement.h"
+#include "core/vision/tag_corners.h"
 #include "core/vision/tags.h"
 
 namespace legible {
@@ -23,20 +24,12 @@ class TagBoardDetector {
   BoardSighting Detect(const GrayImage& image) const;
 
  private:
-  // What is printed about one corner of a tag.
-  struct CornerPattern {
-    std::array<Eigen::Vector2d, 2> edges_m;  // along both edges to the next lines
-    CornerCells cells;
-    bool knows_beyond;
-  };
   // Tags, and what is left out besides.
   struct Reading {
     std::vector<ReadTag> tags;
     std::vector<LeftOut> left_out;
   };
 
-  CornerPattern PatternOf(size_t tag, size_t corner) const;
-  double Gap_m(size_t tag, size_t corner) const;
   Reading OwnTags(const std::vector<TagDetection>& detections) const;
   Reading Agreeing(const std::vector<ReadTag>& read) const;
   Reading WithOthers(const GrayImage& image, std::vector<ReadTag> whole, const std::vector<ReadTag>& partial,
@@ -51,7 +44,7 @@ class TagBoardDetector {
   TagBoard board_;
   TagDetector detector_;
   std::map<int, size_t> index_by_id_;
-  std::vector<std::array<CornerPattern, 4>> patterns_;
+  std::vector<TagPattern> patterns_;  // of the board's tags
 };
 
 }  // namespace legible

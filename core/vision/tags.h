@@ -13,11 +13,22 @@
 
 namespace legible {
 
+// Of a coordinate of a corner as libapriltag has it: 0.05 px in clean images, more where light is uneven.
+inline constexpr double kLibraryCornerSigma_px = 0.1;
+
 struct TagDetection {
   int id = 0;
   // px, centre of the top-left pixel at (0, 0): bottom-left, bottom-right, top-right, top-left of the black
   // border.
   std::array<Eigen::Vector2d, 4> corners_px;
+  // Of each corner; up to a factor that all corners share.
+  std::array<Eigen::Matrix2d, 4> covariances_px2 = LibraryCovariances_px2();
+
+  static std::array<Eigen::Matrix2d, 4> LibraryCovariances_px2() {
+    std::array<Eigen::Matrix2d, 4> covariances;
+    covariances.fill(kLibraryCornerSigma_px * kLibraryCornerSigma_px * Eigen::Matrix2d::Identity());
+    return covariances;
+  }
 };
 
 struct TagDetectorOptions {
@@ -35,7 +46,7 @@ struct TagPicture {
 };
 
 // Finds tags of one family. Holds the library's detector, which is costly to make; not for use by two
-// threads.
+// threads. Corners are the library's own; see LayoutTagDetector for better ones.
 class TagDetector {
  public:
   // Throws std::invalid_argument for a family that libapriltag does not have, and for wider borders about

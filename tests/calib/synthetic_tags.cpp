@@ -94,9 +94,10 @@ void AddTagsToProblem(const std::vector<ObservedTagGroup>& tags, double corner_s
                       EstimationProblem& problem) {
   AddTags(tags, FitBaseFrame(BaseJointsInCamera(problem.shared), problem.drawn_base_joints).camera_from_base,
           problem);
-  for (TagObservation& tag : problem.base_tags) tag.sigma_px = corner_sigma_px;
+  const double scale = corner_sigma_px / kLibraryCornerSigma_px;  // that of the detections' covariances
+  for (TagObservation& tag : problem.base_tags) tag.sigma_scale = scale;
   for (PoseUnit& unit : problem.units)
-    for (TagObservation& tag : unit.tags) tag.sigma_px = corner_sigma_px;
+    for (TagObservation& tag : unit.tags) tag.sigma_scale = scale;
 }
 
 }  // namespace legible

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <random>
 
 #include "core/geometry/camera.h"
@@ -36,7 +37,11 @@ class OneTag : public testing::TestWithParam<TagCarrier> {
         Eigen::Vector3d(-0.02, -0.02, 0), {0.02, -0.02, 0}, {0.02, 0.02, 0}, {-0.02, 0.02, 0}};
     for (Eigen::Vector2d& corner : tag_.corners_px)
       corner = {Uniform(generator_, 0, 1280), Uniform(generator_, 0, 960)};
-    tag_.sigma_px = 0.3;
+    for (Eigen::Matrix2d& covariance_px2 : tag_.covariances_px2) {
+      const double off_px2 = Uniform(generator_, -0.02, 0.02);
+      covariance_px2 << Uniform(generator_, 0.03, 0.1), off_px2, off_px2, Uniform(generator_, 0.03, 0.1);
+    }
+    tag_.sigma_scale = 1.3;
   }
 
   TagResiduals At(const Camera& camera, const Vector6d& placed, const Vector6d& posed) const {
@@ -79,15 +84,19 @@ TEST_P(OneTag, DerivativesAgreeWithNumericOnesAtAnyDisplacement) {
   }
 }
 
+// Their squares are the errors' squared Mahalanobis distances.
 TEST_P(OneTag, ResidualsAreReprojectionErrorsInSigmas) {
   const Rigid3 camera_from_group = GetParam() == TagCarrier::kBase ? placement_.parent_from_group
                                                                    : platform_ * placement_.parent_from_group;
-  const Rows residual = At(camera_, Vector6d::Zero(), Vector6d::Zero()).residual;
+  const TagResiduals found = At(camera_, Vector6d::Zero(), Vector6d::Zero());
   for (size_t k = 0; k < 4; ++k) {
     const Eigen::Vector2d pixel =
         Project(DesktopCamera(true), camera_from_group * tag_.corners_in_group_m[k]);
-    EXPECT_TRUE(AreNear(residual.segment<2>(2 * static_cast<Eigen::Index>(k)) * tag_.sigma_px,
-                        pixel - tag_.corners_px[k], 1e-9));
+    const Eigen::Vector2d error_px = pixel - tag_.corners_px[k];
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
+    EXPECT_TRUE(AreNear(found.error_px.segment<2>(row), error_px, 1e-9));
+    const double distance = error_px.dot(tag_.covariances_px2[k].inverse() * error_px) / (1.3 * 1.3);
+    EXPECT_NEAR(found.residual.segment<2>(row).squaredNorm() / distance, 1, 1e-9);
   }
 }
 
