@@ -85,6 +85,14 @@ std::string OneLine(std::string text) {
   return text;
 }
 
+std::string Shortened(std::string_view text) {
+  constexpr size_t kMost = 60;
+  size_t end = std::min({text.find_first_of("\r\n"), text.size(), kMost});
+  const auto is_inside_character = [&] { return (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80; };
+  while (end > 0 && end < text.size() && is_inside_character()) --end;
+  return std::string(text.substr(0, end)) + (end < text.size() ? "…" : "");
+}
+
 std::optional<double> ParseFinite(std::string_view text) {
   const std::optional<double> value = Parse<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;

@@ -21,6 +21,10 @@ std::string_view Trimmed(std::string_view text);
 // With blanks for line ends and other control characters: what a file holds is quoted, and may hold anything.
 std::string OneLine(std::string text);
 
+// The first line, of at most some 60 bytes; "…" stands for what is left out. For messages: a file's whole
+// content may have been taken for one value.
+std::string Shortened(std::string_view text);
+
 // A finite decimal number that takes up the whole of `text`; nothing otherwise.
 std::optional<double> ParseFinite(std::string_view text);
 std::optional<int> ParseInteger(std::string_view text);

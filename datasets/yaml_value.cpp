@@ -28,7 +28,7 @@ std::vector<YAML::Node> LoadDocuments(const std::filesystem::path& file, const s
 std::string KindOf(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
   if (node.IsSequence()) return "a list";
-  if (node.IsScalar()) return fmt::format("\"{}\"", node.Scalar());
+  if (node.IsScalar()) return fmt::format("\"{}\"", Shortened(node.Scalar()));
   return "empty";
 }
 
@@ -87,7 +87,7 @@ void YamlValue::AllowKeys(const std::vector<std::string>& known) const {
     const std::string name = key.Text();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       key.Fail(
-          fmt::format("has the unknown key \"{}\"", name),
+          fmt::format("has the unknown key \"{}\"", Shortened(name)),
           fmt::format("the nearest known key is \"{}\": rename it or take it out", NearestName(name, known)));
     }
     if (!seen.insert(name).second) key.Fail(fmt::format("has the key \"{}\" twice", name), "keep one");

@@ -137,6 +137,11 @@ TEST_F(Convert, BadInputIsOneLine) {
   refused(Run(camera, {"--to", "ros", "--unit", "mm"}), "--unit: belongs to --to linuxcnc");
   refused(Run(folder_.path() / "robot.yaml", {"--to", "linuxcnc", "--accept-error", "1"}),
           "--accept-error: belongs");
+  std::string prose;
+  for (int i = 0; i < 100; ++i) prose += "This is a letter and no camera\n";
+  const ProgramRun letter = Run(folder_.Write("letter.txt", prose), {"--to", "ros"});
+  refused(letter, "letter.txt:1: the file is \"This is a letter");
+  EXPECT_LT(letter.err.size(), folder_.path().string().size() + 200);
   refused(Run(folder_.Write("c.xml", "<root><camera></root>"), {"--to", "ros"}), "c.xml:1: is no XML");
 }
 

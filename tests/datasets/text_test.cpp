@@ -38,6 +38,14 @@ TEST(Text, WholeNumbersHaveNoFractionAndAreDecimal) {
     EXPECT_EQ(ParseInteger(text), std::nullopt) << text;
 }
 
+TEST(Text, ShortenedIsTheFirstLineUpToSixtyBytesOfWholeCharacters) {
+  EXPECT_EQ(Shortened(""), "");
+  EXPECT_EQ(Shortened(std::string(60, 'a')), std::string(60, 'a'));
+  EXPECT_EQ(Shortened(std::string(61, 'a')), std::string(60, 'a') + "…");
+  EXPECT_EQ(Shortened("one\ntwo"), "one…");
+  EXPECT_EQ(Shortened(std::string(59, 'a') + "äb"), std::string(59, 'a') + "…");
+}
+
 TEST(Text, NearestNameHasTheFewestLettersToChange) {
   const std::vector<std::string> known = {"radius_m", "base_joint_m", "joint_offset_m"};
   EXPECT_EQ(NearestName("raduis_m", known), "radius_m");
