@@ -1,5 +1,9 @@
 #include "datasets/camera_formats/camera_format.h"
 
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
 #include "datasets/text.h"
 
 namespace legible {
@@ -17,6 +21,21 @@ std::string_view WithoutLeadingComments(std::string_view text) {
   }
 }
 
+bool IsOpenCvMatrix(const YAML::Node& node) {
+  return node.Tag().find("opencv-matrix") != std::string::npos;  // the tag's prefix is the parser's
+}
+
+// By the keys: the same words in a comment say nothing.
+CameraFormat RecogniseYaml(const YAML::Node& root) {
+  if (!root.IsMap()) return CameraFormat::kRos;
+  const auto any_value = [&](const auto& is_such) {
+    return std::any_of(root.begin(), root.end(), [&](const auto& entry) { return is_such(entry.second); });
+  };
+  if (any_value(IsOpenCvMatrix)) return CameraFormat::kOpenCv;
+  const auto is_kalibrs = [](const YAML::Node& node) { return node.IsMap() && node["camera_model"]; };
+  return is_kalibrs(root) || any_value(is_kalibrs) ? CameraFormat::kKalibr : CameraFormat::kRos;
+}
+
 }  // namespace
 
 CameraFormat RecogniseCameraFormat(std::string_view text) {
@@ -25,8 +44,12 @@ CameraFormat RecogniseCameraFormat(std::string_view text) {
     return Holds(body, "<opencv_storage") ? CameraFormat::kOpenCv : CameraFormat::kVisp;
   if (body.starts_with('{') && (Holds(body, "LENSMODEL_") || Holds(body, "DISTORTION_")))
     return CameraFormat::kMrcal;
-  if (body.starts_with("%YAML") || Holds(body, "!!opencv-matrix")) return CameraFormat::kOpenCv;
-  return Holds(body, "camera_model:") ? CameraFormat::kKalibr : CameraFormat::kRos;
+  if (body.starts_with("%YAML")) return CameraFormat::kOpenCv;
+  try {
+    return RecogniseYaml(YAML::Load(std::string(text)));
+  } catch (const YAML::Exception&) {
+    return CameraFormat::kRos;
+  }
 }
 
 const char* NameOf(CameraFormat format) {

@@ -77,6 +77,16 @@ TEST(CameraFormats, WhatIsWrittenIsRecognisedAndReadsBackAsTheSameBits) {
       }
 }
 
+TEST(CameraFormats, AreRecognisedByKeysAndNotByWordsInComments) {
+  const TemporaryFolder folder;
+  const Camera camera = CamerasOfEveryLens().front();
+  for (const std::string comment : {"camera_model: pinhole", "camera_matrix: !!opencv-matrix"}) {
+    const std::string text = CameraInfoText({camera, {}}) + "# once " + comment + "\n";
+    EXPECT_EQ(RecogniseCameraFormat(text), CameraFormat::kRos) << comment;
+    ExpectSame(ReadCamera(folder.Write("camera.yaml", text)).camera, camera);
+  }
+}
+
 TEST(CameraFormats, AreExactWhereTheyHaveTheLens) {
   for (const Camera& camera : CamerasOfEveryLens()) {
     for (const CameraFormat format : {CameraFormat::kRos, CameraFormat::kOpenCv})
