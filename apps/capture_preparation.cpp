@@ -63,6 +63,7 @@ Session DescriptionOf(const CaptureSettings& settings, const OpenedRig& rig,
   const CameraFile camera = CameraOnPaper(settings, rig);
   session.camera = camera.camera;
   session.camera_from_base = camera.camera_from_base;
+  warnings = camera.warnings;
   session.known = KnownOf(settings, rig);
   if (!ForgetsCamera(settings.known)) session.known.camera_information = camera.information;
   const bool is_robot_drawn = settings.robot || rig.drawing_robot;

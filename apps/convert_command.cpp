@@ -115,7 +115,7 @@ int ConvertCamera(const ConvertSettings& settings, const fs::path& file, CameraF
     console.err << RefusalText(exported.errors, format);
     return kExitNoResult;
   }
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = camera.file.warnings;
   if (!exported.errors.empty())
     warnings.push_back(fmt::format("{} holds the nearest lens that it has: {}", NameOf(format),
                                    ErrorsText(exported.errors)));

@@ -69,6 +69,7 @@ bool SeesATag(const CalibrationRun& run) {
 }
 
 void AddStart(const CalibrationRun& run, Sentences& sentences) {
+  sentences.insert(sentences.end(), run.session.warnings.begin(), run.session.warnings.end());
   if (run.session.tags && !SeesATag(run))
     sentences.push_back(fmt::format("no image shows a tag of tags.yaml: check its family ({}) and ids",
                                     run.session.tags->family));

@@ -25,12 +25,13 @@ std::filesystem::path CameraFileName(const ServoSettings& settings) {
   return settings.camera.value_or(settings.model);
 }
 
-ServoModel LoadModel(const ServoSettings& settings) {
+ServoModel LoadModel(const ServoSettings& settings, std::vector<std::string>& warnings) {
   CalibratedModel model = ReadModel(settings.model);
   if (settings.camera) {
     const CameraFile camera = ReadCamera(*settings.camera);
     model.camera = camera.camera;
     model.camera_from_base = camera.camera_from_base;
+    warnings.insert(warnings.end(), camera.warnings.begin(), camera.warnings.end());
   }
   const std::filesystem::path file = CameraFileName(settings);
   if (!model.camera)
@@ -262,7 +263,7 @@ PreparedServo PrepareServo(const ServoSettings& settings, OpenedRig rig) {
   prepared.settings = settings;
   prepared.rig = std::move(rig);
   ServoSetup& setup = prepared.setup;
-  setup.model = LoadModel(settings);
+  setup.model = LoadModel(settings, prepared.warnings);
   DemandEdgeSource(settings, prepared.rig);
   DemandSameImageSize(CameraFileName(settings), setup.model.camera, prepared.rig);
   setup.goal = GoalOf(settings, setup.model);

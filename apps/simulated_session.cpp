@@ -63,7 +63,7 @@ Camera UsualCamera(const SimulateSettings& settings) {
   return camera;
 }
 
-SyntheticOptions OptionsOf(const SimulateSettings& settings) {
+SyntheticOptions OptionsOf(const SimulateSettings& settings, std::vector<std::string>& warnings) {
   SyntheticOptions options;
   if (settings.robot) options.drawing = ReadRobot(*settings.robot);
   options.camera = UsualCamera(settings);
@@ -71,6 +71,7 @@ SyntheticOptions OptionsOf(const SimulateSettings& settings) {
   if (settings.camera) {
     const CameraFile camera = ReadCamera(*settings.camera);
     options.camera = camera.camera;
+    warnings.insert(warnings.end(), camera.warnings.begin(), camera.warnings.end());
     if (camera.camera_from_base) options.camera_from_base = *camera.camera_from_base;
   }
   options.geometry_error_m = settings.geometry_error_m;
@@ -92,7 +93,7 @@ void DemandHomeInReach(const SimulateSettings& settings, const GoughStewart& rob
 }
 
 void DrawRig(const SimulateSettings& settings, SimulatedSession& session) try {
-  const SyntheticRig rig = GenerateRig(OptionsOf(settings));
+  const SyntheticRig rig = GenerateRig(OptionsOf(settings, session.warnings));
   DemandHomeInReach(settings, rig.true_robot);
   session.truth.truth = {rig.true_robot, rig.true_camera, rig.true_camera_from_base};
   session.truth.options.seed = static_cast<std::uint64_t>(settings.seed);
@@ -113,6 +114,7 @@ void ReadRig(const SimulateSettings& settings, SimulatedSession& session) {
                                                          : CameraFile{truth.camera, truth.camera_from_base};
   session.paper.camera = camera.camera;
   session.paper.camera_from_base = camera.camera_from_base;
+  session.warnings = camera.warnings;
   if (!session.truth.drawing_robot || !session.truth.drawing_camera)
     session.warnings.push_back(fmt::format(
         "{} does not name both drawings: what is missing is the true one, and there is nothing to find",

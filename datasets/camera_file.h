@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/rigid3.h"
@@ -19,6 +20,7 @@ struct CameraFile {
   // The inverse covariance of fx fy cx cy and the coefficients of the lens, px, (4 + coefficients) square,
   // positive semi-definite; empty: how well the camera is known is not said.
   Eigen::MatrixXd information = {};
+  std::vector<std::string> warnings = {};  // what a user has to know of how the file was understood
 };
 
 // Reads any format of CameraFormat, recognised by its content; of those of other tools what their readers say

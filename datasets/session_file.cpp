@@ -141,6 +141,7 @@ Session ReadSession(const std::filesystem::path& folder) {
   session.camera = camera_file.camera;
   session.camera_from_base = camera_file.camera_from_base;
   session.known.camera_information = camera_file.information;
+  session.warnings = camera_file.warnings;
   if (const auto tags = root.Find("tags")) {
     session.files.push_back(NamedFile(folder, *tags));
     session.tags = ReadTags(session.files.back());

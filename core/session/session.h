@@ -98,6 +98,7 @@ struct Session {
   std::vector<std::filesystem::path>
       files;  // what it was read from but the images: session.yaml, robot, camera, …
   std::vector<std::string> unlisted_images;  // in the image folder but not in joints.csv: not used
+  std::vector<std::string> warnings;         // what a user has to know of how its files were understood
 };
 
 // What a calibration found, and what everything else starts from.

@@ -23,7 +23,7 @@ CameraFile ReadKalibrCamera(const std::filesystem::path& file, const std::string
 CameraFile ReadVispCamera(const std::filesystem::path& file, const std::string& text);
 
 // LENSMODEL_PINHOLE, _OPENCV4, _OPENCV5, _OPENCV8. extrinsics (rt_cam_ref in later versions) that are not 0
-// become camera_from_base.
+// become camera_from_base, with a warning: the reference frame may be another camera's.
 CameraFile ReadMrcalCamera(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace legible

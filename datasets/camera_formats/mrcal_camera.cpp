@@ -66,10 +66,15 @@ YamlValue GetOneOf(const YamlValue& root, std::initializer_list<const char*> nam
 }
 
 // A rotation vector and a translation, of the camera from mrcal's reference frame; all 0 where none is known.
-std::optional<Rigid3> PlaceOf(const YamlValue& root) {
+// What the reference is, mrcal leaves to its user: of cameras that were calibrated together the first one.
+void ReadPlace(const std::filesystem::path& file, const YamlValue& root, CameraFile& camera) {
   const std::vector<double> rt = GetOneOf(root, {"extrinsics", "rt_cam_ref"}).Numbers(6);
-  if (std::all_of(rt.begin(), rt.end(), [](double x) { return x == 0; })) return std::nullopt;
-  return Rigid3{RotationFromVector({rt[0], rt[1], rt[2]}), {rt[3], rt[4], rt[5]}};
+  if (std::all_of(rt.begin(), rt.end(), [](double x) { return x == 0; })) return;
+  camera.camera_from_base = Rigid3{RotationFromVector({rt[0], rt[1], rt[2]}), {rt[3], rt[4], rt[5]}};
+  camera.warnings.push_back(fmt::format(
+      "{}: its extrinsics are taken for camera_from_base, mrcal's reference frame for the robot's "
+      "base; where the reference is another camera, set them to 0",
+      file.string()));
 }
 
 }  // namespace
@@ -85,7 +90,9 @@ CameraFile ReadMrcalCamera(const std::filesystem::path& file, const std::string&
                 Distortion::Zero()};
   if (const auto wrong = WhatIsImplausible(camera)) intrinsics.Fail(wrong->what_is_wrong, wrong->what_to_do);
   std::copy(k.begin() + 4, k.end(), camera.distortion.begin());
-  return {camera, PlaceOf(root)};
+  CameraFile result{camera, std::nullopt};
+  ReadPlace(file, root, result);
+  return result;
 }
 
 }  // namespace legible

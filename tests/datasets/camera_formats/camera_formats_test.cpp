@@ -367,6 +367,17 @@ TEST(MrcalCamera, ReadsPythonsLiterals) {
   EXPECT_FALSE(found.camera_from_base.has_value());
 }
 
+// The reference may be another camera, of which the file says nothing.
+TEST(MrcalCamera, APlaceIsTakenWithAWarning) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(ReadCamera(folder.Write("m.cameramodel", kMrcalOfManyKeys)).warnings.empty());
+  const std::string placed = Replaced(kMrcalOfManyKeys, "[ 0, 0, 0, 0, 0, 0, ]", "[ 0, 0, 0, 0.1, 0, 0 ]");
+  const CameraFile found = ReadCamera(folder.Write("m.cameramodel", placed));
+  EXPECT_EQ(found.camera_from_base->translation, Eigen::Vector3d(0.1, 0, 0));
+  ASSERT_EQ(found.warnings.size(), 1);
+  EXPECT_NE(found.warnings[0].find("where the reference is another camera"), std::string::npos);
+}
+
 TEST(MrcalCamera, OtherLensesAreRefusedByName) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "m.cameramodel";
