@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/camera_parameters.h"
 #include "datasets/atomic_file.h"
 #include "datasets/camera_formats/camera_format.h"
 #include "datasets/camera_formats/camera_readers.h"
 #include "datasets/camera_formats/plausible_camera.h"
+#include "datasets/input_error.h"
 #include "datasets/symmetric_yaml.h"
 #include "datasets/text.h"
 #include "datasets/yaml_value.h"
@@ -93,6 +95,8 @@ void ReadDistortion(const YamlValue& section, Camera& camera) {
         "give as many as the model has, or name another distortion_model");
   }
   std::copy(values.begin(), values.end(), camera.distortion.begin());
+  if (const auto wrong = WhatCoefficientIsImplausible(camera))
+    coefficients->Fail(wrong->what_is_wrong, wrong->what_to_do);
 }
 
 // Binning or a region of interest would shift the pixels: refused rather than passed over.
@@ -127,15 +131,28 @@ Camera ReadCameraInfo(const YamlValue& section) {
   return camera;
 }
 
+// Nothing is known of px and coefficients to the last digits of a number.
+void DemandUsableSize(const YamlValue& section, const Eigen::MatrixXd& information, const Camera& camera) {
+  constexpr double kLeastSigma = 1e-12;
+  for (Eigen::Index i = 0; i < information.rows(); ++i) {
+    if (information(i, i) * kLeastSigma * kLeastSigma <= 1) continue;
+    section.Fail(fmt::format("has {:g} for {}, which would be known to less than {:g}", information(i, i),
+                             CameraParameterName(camera.lens, static_cast<int>(i)), kLeastSigma),
+                 "give the inverse covariance in px, or leave it out");
+  }
+}
+
 // Rounding of a matrix that is singular may leave it a little negative.
 Eigen::MatrixXd InformationFromYaml(const YamlValue& section, const Camera& camera) {
   constexpr double kRounding = 1e-9;
   Eigen::MatrixXd information = SymmetricFromYaml(section, 4 + static_cast<size_t>(camera.lens));
+  DemandUsableSize(section, information, camera);
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * information * scale.asDiagonal())
           .eigenvalues();
-  if (eigenvalues[0] < -kRounding * eigenvalues[eigenvalues.size() - 1])
+  const bool is_semidefinite = eigenvalues[0] >= -kRounding * eigenvalues[eigenvalues.size() - 1];
+  if (!is_semidefinite || !eigenvalues.allFinite())
     section.Fail("is no inverse covariance: it has a negative eigenvalue", "leave it as it was written");
   return information;
 }
@@ -151,6 +168,22 @@ CameraFile ReadRosCamera(const std::filesystem::path& file, const std::string& t
   if (const auto information = root.Find("information"))
     result.information = InformationFromYaml(*information, result.camera);
   return result;
+}
+
+CameraFile ReadAsRecognised(const std::filesystem::path& file, const std::string& text) {
+  switch (RecogniseCameraFormat(text)) {
+    case CameraFormat::kOpenCv:
+      return ReadOpenCvCamera(file, text);
+    case CameraFormat::kKalibr:
+      return ReadKalibrCamera(file, text);
+    case CameraFormat::kVisp:
+      return ReadVispCamera(file, text);
+    case CameraFormat::kMrcal:
+      return ReadMrcalCamera(file, text);
+    case CameraFormat::kRos:
+      break;
+  }
+  return ReadRosCamera(file, text);
 }
 
 }  // namespace
@@ -175,20 +208,10 @@ std::string CameraToYaml(const Camera& camera) {
 }
 
 CameraFile ReadCamera(const std::filesystem::path& file) {
-  const std::string text = ReadTextFile(file);
-  switch (RecogniseCameraFormat(text)) {
-    case CameraFormat::kOpenCv:
-      return ReadOpenCvCamera(file, text);
-    case CameraFormat::kKalibr:
-      return ReadKalibrCamera(file, text);
-    case CameraFormat::kVisp:
-      return ReadVispCamera(file, text);
-    case CameraFormat::kMrcal:
-      return ReadMrcalCamera(file, text);
-    case CameraFormat::kRos:
-      break;
-  }
-  return ReadRosCamera(file, text);
+  CameraFile result = ReadAsRecognised(file, ReadTextFile(file));
+  if (const auto wrong = WhatCoefficientIsImplausible(result.camera))
+    throw InputError(file, 0, wrong->what_is_wrong, wrong->what_to_do);
+  return result;
 }
 
 // ROS wants a rectification and a projection too; those of the raw image are the identity and the camera

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/camera_parameters.h"
+
 namespace legible {
 namespace {
 
@@ -49,6 +51,23 @@ std::optional<ImplausibleCamera> WhatIsImplausible(const Camera& camera) {
   for (const auto check : {WrongFocalLength, WrongCentre})
     for (const Axis& axis : {across, down})
       if (auto wrong = check(axis)) return wrong;
+  return std::nullopt;
+}
+
+std::optional<ImplausibleCamera> WhatCoefficientIsImplausible(const Camera& camera) {
+  constexpr double kMost = 1e6;
+  Camera centred = camera;
+  centred.cx_px = 0.5 * camera.width_px;
+  centred.cy_px = 0.5 * camera.height_px;
+  const Distortion sizes = CoefficientSizes(centred);
+  for (int i = 0; i < static_cast<int>(camera.lens); ++i) {
+    const double value = camera.distortion[i];
+    if (std::abs(value) <= kMost * sizes[i]) continue;
+    return ImplausibleCamera{
+        fmt::format("has {} {:g}, which is no lens's for an image of {} x {} px",
+                    CameraParameterName(camera.lens, 4 + i), value, camera.width_px, camera.height_px),
+        "mend that coefficient"};
+  }
   return std::nullopt;
 }
 

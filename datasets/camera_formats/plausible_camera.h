@@ -16,4 +16,8 @@ struct ImplausibleCamera {
 };
 std::optional<ImplausibleCamera> WhatIsImplausible(const Camera& camera);
 
+// The same of the coefficients of the lens: each by itself moves the image's corner by at most a million
+// times its distance from the middle. (Those of a rational lens may cancel each other.)
+std::optional<ImplausibleCamera> WhatCoefficientIsImplausible(const Camera& camera);
+
 }  // namespace legible

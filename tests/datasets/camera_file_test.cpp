@@ -1,5 +1,8 @@
 #include "datasets/camera_file.h"
 
+#include <fmt/format.h>
+
+#include "datasets/camera_formats/camera_export.h"
 #include "datasets/synthetic_session.h"
 #include "tests/datasets/equality.h"
 #include "tests/datasets/files.h"
@@ -100,6 +103,37 @@ TEST(CameraFile, RefusesAnInformationThatIsNone) {
   EXPECT_THAT(complaint(), testing::HasSubstr("information is no inverse covariance"));
   file.information.conservativeResize(8, 8);
   EXPECT_THAT(complaint(), testing::HasSubstr("information"));
+}
+
+TEST(CameraFile, RefusesAnInformationWithWhichNothingCanBeComputed) {
+  const TemporaryFolder folder;
+  for (const double absurd : {1e25, 1e300}) {
+    CameraFile file{DesktopCamera(true), std::nullopt, Eigen::MatrixXd::Identity(9, 9)};
+    file.information(4, 4) = absurd;
+    const auto path = folder.Write("camera.yaml", CameraInfoText(file));
+    EXPECT_THAT(InputErrorOf([&] { ReadCamera(path); }),
+                testing::AllOf(testing::HasSubstr("information has 1e+"), testing::HasSubstr("for k1, ")));
+  }
+  // Nothing known of a parameter that goes together with another.
+  CameraFile file{DesktopCamera(true), std::nullopt, Eigen::MatrixXd::Identity(9, 9)};
+  file.information(0, 0) = 0;
+  file.information(1, 0) = file.information(0, 1) = 1e300;
+  const auto path = folder.Write("camera.yaml", CameraInfoText(file));
+  EXPECT_THAT(InputErrorOf([&] { ReadCamera(path); }), testing::HasSubstr("information is no inverse"));
+}
+
+// In every format: by the reader of the file or by the one for all.
+TEST(CameraFile, RefusesACoefficientThatNoLensHasByItsName) {
+  const TemporaryFolder folder;
+  for (const double absurd : {1e300, -1e300, 1e9}) {
+    Camera camera = DesktopCamera(true);
+    camera.distortion[2] = absurd;
+    for (const CameraFormat format : {CameraFormat::kRos, CameraFormat::kOpenCv}) {
+      const auto path = folder.Write("camera", ExportCamera({camera, {}}, format).text);
+      EXPECT_THAT(InputErrorOf([&] { ReadCamera(path); }),
+                  testing::HasSubstr(fmt::format("has p1 {:g}, which is no lens's", absurd)));
+    }
+  }
 }
 
 TEST(CameraFile, NoneOrNothingIsThePinhole) {
