@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -78,6 +79,12 @@ std::optional<double> VarianceOf(const std::filesystem::path& file, const CsvRow
   return 1 / std::pow(Demanded(file, row, "weight", weight), 2);
 }
 
+void SortByPoint(std::vector<ReadView>& views) {
+  for (ReadView& one : views)
+    std::sort(one.view.corners.begin(), one.view.corners.end(),
+              [](const BoardCorner& a, const BoardCorner& b) { return a.point < b.point; });
+}
+
 std::string NameOf(const CsvRow& row, const Board& board) {
   if (board.chessboard)
     return fmt::format("the corner in column {}, row {},", row.fields[kFirst], row.fields[kSecond]);
@@ -112,6 +119,7 @@ std::vector<ReadView> ReadCorners(const std::filesystem::path& file, const Board
           {NameOf(row, board), "is marked as wrong in the file of corners", {point}, pixel});
   }
   if (views.empty()) throw InputError(file, 0, "no corner: there is no row below the header", "add some");
+  SortByPoint(views);
   return views;
 }
 

@@ -19,7 +19,7 @@ struct ReadView {
 // bottom-left, bottom-right, top-right, top-left of the black border). Optional: sigma_px, the standard
 // deviation of each coordinate up to a factor that all corners share, or weight, its inverse; a weight of 0
 // or less says that the corner is wrong, and it is left out. With `counts_alike` these are not looked at.
-// Views in the order of their first rows. Throws InputError for what is no such
+// Views in the order of their first rows, corners by point. Throws InputError for what is no such
 // table, and for corners that the board does not have or that a view has twice.
 std::vector<ReadView> ReadCorners(const std::filesystem::path& file, const Board& board, bool counts_alike);
 

@@ -49,9 +49,9 @@ struct BoardCorner {
 
 // One view of the board.
 struct BoardView {
-  std::string name;            // the image's file name, or the view's name in a file of corners
-  std::filesystem::path file;  // of the image; empty where corners were found elsewhere
-  std::vector<BoardCorner> corners;
+  std::string name;                  // the image's file name, or the view's name in a file of corners
+  std::filesystem::path file;        // of the image; empty where corners were found elsewhere
+  std::vector<BoardCorner> corners;  // by point: neighbours on the board are mostly neighbours here
 };
 
 }  // namespace legible

@@ -46,6 +46,14 @@ TEST_F(CornerFile, HoldsViewsInTheOrderOfTheirFirstRows) {
   EXPECT_EQ(views[1].view.corners[0].pixel, Eigen::Vector2d(30, 40));
 }
 
+TEST_F(CornerFile, HasTheCornersOfAViewByPointWhateverTheOrderOfItsRows) {
+  const auto views = Read("view,column,row,x_px,y_px\na,1,1,4,4\na,2,0,2,2\na,0,1,3,3\na,0,0,0,0\n");
+  std::vector<int> points;
+  for (const BoardCorner& corner : views[0].view.corners) points.push_back(corner.point);
+  EXPECT_EQ(points, (std::vector<int>{0, 2, 3, 4}));
+  EXPECT_EQ(views[0].view.corners[2].pixel, Eigen::Vector2d(3, 3));
+}
+
 TEST_F(CornerFile, NamesTagsByTheirIds) {
   const auto views = Read("view,tag,corner,x_px,y_px\na,9,2,1,2\n", TwoTags());
   EXPECT_EQ(views[0].view.corners[0].point, 6);
