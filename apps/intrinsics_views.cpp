@@ -128,6 +128,16 @@ void DemandOneSource(const IntrinsicsSettings& settings) {
                      settings.corners ? "give --image-size WxH" : "leave --image-size out");
 }
 
+// A board of a single tag.
+void DemandEnoughPoints(const IntrinsicsRun& run) {
+  const auto points = std::ssize(run.input.points_in_board_m);
+  if (points >= kFewestViewCorners) return;
+  throw InputError(
+      run.settings.board, 0,
+      fmt::format("has {} corners, and a view counts with {} or more", points, kFewestViewCorners),
+      "take a board of several tags");
+}
+
 }  // namespace
 
 IntrinsicsRun LoadViews(const IntrinsicsSettings& settings, ProgressLine& progress) {
@@ -136,6 +146,7 @@ IntrinsicsRun LoadViews(const IntrinsicsSettings& settings, ProgressLine& progre
   run.settings = settings;
   run.board = ReadBoard(settings.board);
   run.input.points_in_board_m = PointsOf(run.board);
+  DemandEnoughPoints(run);
   std::vector<std::filesystem::path> files = ImageFiles(settings.images);
   if (settings.corners)
     AddCorners(run);

@@ -19,7 +19,6 @@
 namespace legible {
 namespace {
 
-constexpr size_t kFewestCorners = 6;         // of a view: four fix its pose and leave nothing to check
 constexpr size_t kFewestViews = 3;           // that differ: two leave the principal point open
 constexpr double kSameView = 5e-3;           // of the image's diagonal: views whose corners differ by less
 constexpr double kLargestUnevenness = 0.06;  // of the distance of neighbouring corners
@@ -143,9 +142,9 @@ class CameraCalibrator {
 
 void CameraCalibrator::AddView(size_t view) {
   const BoardView& seen = input_.views[view];
-  if (seen.corners.size() < kFewestCorners) {
+  if (std::ssize(seen.corners) < kFewestViewCorners) {
     result_.views[view].left_out =
-        fmt::format("shows {} corners of the board, fewer than {}", seen.corners.size(), kFewestCorners);
+        fmt::format("shows {} corners of the board, fewer than {}", seen.corners.size(), kFewestViewCorners);
     return;
   }
   UsedView used;
@@ -240,7 +239,7 @@ void CameraCalibrator::Drop(size_t view, const std::string& reason) {
 // Few corners left do not hold a view's pose.
 void CameraCalibrator::DropOutlyingViews() {
   for (size_t i = views_.size(); i-- > 0;)
-    if (views_[i].CountedCorners() < static_cast<double>(kFewestCorners))
+    if (views_[i].CountedCorners() < kFewestViewCorners)
       Drop(i, "contradicts the others: nearly all of its corners are far from where these put them");
 }
 
@@ -426,7 +425,7 @@ void CameraCalibrator::Judge(Outcome outcome) {
 BoardCalibration CameraCalibrator::FromNothing() {
   if (views_.empty())
     return Failed(BoardCalibrationStatus::kTooFewViews,
-                  fmt::format("no view shows {} or more corners of the board", kFewestCorners));
+                  fmt::format("no view shows {} or more corners of the board", kFewestViewCorners));
   const size_t distinct = static_cast<size_t>(DistinctViews());
   if (distinct < kFewestViews)
     return Failed(

@@ -12,6 +12,9 @@
 
 namespace legible {
 
+// A view with fewer corners has no part: four fix its pose and leave nothing to check.
+inline constexpr int kFewestViewCorners = 6;
+
 struct BoardCalibrationInput {
   std::vector<Eigen::Vector3d> points_in_board_m;  // PointsOf(board)
   std::vector<BoardView> views;                    // all of one image size

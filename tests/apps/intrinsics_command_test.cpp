@@ -111,6 +111,16 @@ TEST_F(BoardImages, GiveACameraFileThatKeepsHowWellItIsKnown) {
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), found["camera"]["sigma"]["fx"].get<double>(), 1e-6);
 }
 
+// Before any image is looked at: this one could not be read.
+TEST_F(BoardImages, OfABoardOfASingleTagAreRefusedBeforeItIsLookedFor) {
+  folder_.Write("board.yaml",
+                "board: tags\nfamily: tag36h11\ncolumns: 1\nrows: 1\ntag_size_m: 0.04\nspacing_m: 0.012\n");
+  folder_.Write("images/000.png", "no image");
+  ExpectRefusal(
+      RunOnIt(), kExitBadInput,
+      HasSubstr("board.yaml: has 4 corners, and a view counts with 6 or more; take a board of several"));
+}
+
 TEST_F(BoardImages, PrintOneDocumentAsJson) {
   const ProgramRun run = RunOnIt({"--format", "json"});
   ASSERT_EQ(run.exit_code, kExitSuccess) << run.err;
