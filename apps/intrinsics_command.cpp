@@ -6,6 +6,7 @@
 
 #include "apps/intrinsics_json.h"
 #include "apps/intrinsics_judgement.h"
+#include "apps/intrinsics_layout.h"
 #include "apps/intrinsics_report.h"
 #include "apps/intrinsics_run.h"
 #include "apps/intrinsics_text.h"
@@ -34,7 +35,8 @@ std::string ReasonsText(const IntrinsicsRun& run) {
                         run.left_out[i].front().reason);
     ++told;
   }
-  return text;
+  const std::string other = OtherTagsSeen(run);
+  return other.empty() ? text : text + "  " + other + "\n";
 }
 
 void Write(const IntrinsicsRun& run, const std::string& json, const std::string& page) {

@@ -8,6 +8,7 @@
 
 #include "calib/board/layout_check.h"
 #include "core/vision/gray_image.h"
+#include "core/vision/tag_corners.h"
 #include "core/vision/tags.h"
 #include "datasets/input_error.h"
 
@@ -131,7 +132,60 @@ void DemandAllLines(const IntrinsicsRun& run) {
                    "mend columns and rows, or take them from the board itself");
 }
 
+// Tags that a board's file may have meant.
+struct PrintedTags {
+  std::string family;
+  int border_bits = 1;
+};
+
+// Those that are quickly looked for; families of many tags take a gigabyte.
+std::vector<PrintedTags> UsualTags() {
+  constexpr int kMostTags = 2500;
+  std::vector<PrintedTags> usual;
+  for (const TagFamily& family : kTagFamilies)
+    if (family.tags <= kMostTags) usual.push_back({family.name, 1});
+  for (const std::string& family : kWideBorderFamilies) usual.push_back({family, 2});
+  return usual;
+}
+
+// At most that some image shows.
+size_t MostTagsIn(const std::vector<GrayImage>& images, const PrintedTags& tags) {
+  const TagDetector detector(tags.family, {.decimation = 1, .border_bits = tags.border_bits});
+  size_t most = 0;
+  for (const GrayImage& image : images) most = std::max(most, detector.Detect(image).size());
+  return most;
+}
+
+// The first images in which the board was not found.
+std::vector<GrayImage> ImagesWithoutBoard(const IntrinsicsRun& run) {
+  constexpr size_t kImages = 2;
+  std::vector<GrayImage> images;
+  for (const BoardView& view : run.input.views) {
+    if (images.size() == kImages) break;
+    if (!view.corners.empty() || view.file.empty()) continue;
+    if (auto image = ReadGrayImage(view.file)) images.push_back(std::move(*image));
+  }
+  return images;
+}
+
 }  // namespace
+
+std::string OtherTagsSeen(const IntrinsicsRun& run) {
+  constexpr size_t kChance = 2;  // as many may be read where there are none
+  if (!run.board.tags) return "";
+  const std::vector<GrayImage> images = ImagesWithoutBoard(run);
+  if (images.empty()) return "";
+  size_t most = kChance;
+  std::string seen;
+  for (const PrintedTags& tags : UsualTags()) {
+    if (tags.family == run.board.tags->family && tags.border_bits == run.board.tags->border_bits) continue;
+    const size_t count = MostTagsIn(images, tags);
+    if (count <= most) continue;
+    most = count;
+    seen = PrintOf(tags.family, tags.border_bits);
+  }
+  return seen.empty() ? "" : fmt::format("the images show tags of {}: mend the board's file", seen);
+}
 
 void DemandAgreement(const IntrinsicsRun& run) {
   DemandNoForeignTags(run);

@@ -47,7 +47,7 @@ bool IsFittedWhole(const CornerFit* fits) {
   });
 }
 
-// What both left out.
+// What both left out, in this order.
 std::vector<LeftOut> Joined(std::vector<LeftOut> a, const std::vector<LeftOut>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -72,9 +72,8 @@ BoardSighting TagBoardDetector::Detect(const GrayImage& image) const {
   const Reading agreeing = Agreeing(own.tags);
   std::vector<LeftOut> left_out = Joined(own.left_out, agreeing.left_out);
   if (agreeing.tags.empty()) {
-    const LeftOut board = WholeBoard(4 * static_cast<int>(board_.tags.size()),
-                                     "was not found: no two of its tags were read where they belong");
-    return {{}, Joined(std::move(left_out), {board})};
+    const LeftOut board = WholeBoard(4 * static_cast<int>(board_.tags.size()), WhyNotFound(own));
+    return {{}, Joined({board}, left_out)};
   }
   // Fitted corners say better where the next lines are, and other tags.
   const std::vector<CornerFit> rough = FitCorners(image, Expected(agreeing.tags), kDetectedSigma_px, {});
@@ -109,6 +108,13 @@ TagBoardDetector::Reading TagBoardDetector::OwnTags(const std::vector<TagDetecti
                                   MiddleOf(detection.corners_px)});
   }
   return reading;
+}
+
+std::string TagBoardDetector::WhyNotFound(const Reading& own) const {
+  if (own.tags.empty() && own.left_out.empty())
+    return fmt::format("was not found: no tag of {} was", PrintOf(board_.family, board_.border_bits));
+  if (own.tags.empty()) return fmt::format("was not found: the tags of {} there are not its", board_.family);
+  return "was not found: no two of its tags were read where they belong";
 }
 
 TagBoardDetector::Reading TagBoardDetector::Agreeing(const std::vector<ReadTag>& read) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/session/board.h"
@@ -31,6 +32,7 @@ class TagBoardDetector {
   };
 
   Reading OwnTags(const std::vector<TagDetection>& detections) const;
+  std::string WhyNotFound(const Reading& own) const;
   Reading Agreeing(const std::vector<ReadTag>& read) const;
   Reading WithOthers(const GrayImage& image, std::vector<ReadTag> whole, const std::vector<ReadTag>& partial,
                      const CornerExpectations& expected) const;

@@ -1,5 +1,7 @@
 #include "core/vision/tag_corners.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -45,6 +47,10 @@ double LevelAt(const TagPicture& picture, const Eigen::Vector2d& column_and_row)
   if (column_and_row.minCoeff() < 0 || column_and_row.maxCoeff() > picture.modules) return 1;
   const auto column = static_cast<size_t>(column_and_row.x()), row = static_cast<size_t>(column_and_row.y());
   return picture.is_light[row * static_cast<size_t>(picture.modules) + column] ? 1 : 0;
+}
+
+std::string PrintOf(const std::string& family, int border_bits) {
+  return border_bits == 1 ? family : fmt::format("{} with borders of {} bits", family, border_bits);
 }
 
 TagPattern PatternOf(const Tag& tag, const std::vector<Tag>& tags, const TagPicture& picture,

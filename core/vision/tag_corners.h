@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "core/session/session.h"
@@ -26,6 +27,9 @@ struct TagPrint {
   int border_bits = 1;              // width of the border in the tag's own bits
   bool has_corner_squares = false;  // black squares that join the corners of neighbouring tags
 };
+
+// As messages name tags: "tag36h11" or "tag36h11 with borders of 2 bits".
+std::string PrintOf(const std::string& family, int border_bits);
 
 // `tags` are all that are printed together, the tag among them: the nearest one ends the light margin.
 TagPattern PatternOf(const Tag& tag, const std::vector<Tag>& tags, const TagPicture& picture,

@@ -222,6 +222,17 @@ TEST_F(BoardImages, RefuseABoardThatNobodySees) {
   ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("no view shows"));
 }
 
+TEST_F(BoardImages, ShowWhichTagsTheBoardsFileShouldHaveNamed) {
+  folder_.Write("board.yaml", Replaced(kBoardYaml, "tag36h11", "tag25h9"));
+  ExpectRefusal(RunOnIt(), kExitNoResult,
+                AllOf(HasSubstr("000.png: the board was not found: no tag of tag25h9 was\n"),
+                      HasSubstr("  the images show tags of tag36h11: mend the board's file\n")));
+  folder_.Write("board.yaml", std::string(kBoardYaml) + "border_bits: 2\n");
+  ExpectRefusal(RunOnIt(), kExitNoResult,
+                AllOf(HasSubstr("no tag of tag36h11 with borders of 2 bits was\n"),
+                      HasSubstr("  the images show tags of tag36h11: mend the board's file\n")));
+}
+
 TEST_F(BoardImages, RefuseAChessboardThatNobodySees) {
   folder_.Write("board.yaml", "board: chessboard\ncolumns: 9\nrows: 6\nsquare_m: 0.02\n");
   ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("no view shows"));
