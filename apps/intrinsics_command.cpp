@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/intrinsics_json.h"
@@ -37,10 +38,16 @@ std::string ReasonsText(const IntrinsicsRun& run) {
   return text;
 }
 
+std::string CameraText(const IntrinsicsRun& run) {
+  std::string text = CameraInfoText({run.result.camera, std::nullopt, run.result.information.information});
+  if (!run.halves.HasMisfit()) return text;
+  return fmt::format("# The lens model does not fit: `information` is {:.4g} of what the residuals give.\n{}",
+                     1 / std::pow(run.result.widening, 2), text);
+}
+
 void Write(const IntrinsicsRun& run, const std::string& json, const std::string& page) {
   WriteTogether(run.settings.out, kFiles, [&](const std::filesystem::path& folder) {
-    WriteFileAtomically(folder / "camera.yaml", CameraInfoText({run.result.camera, std::nullopt,
-                                                                run.result.information.information}));
+    WriteFileAtomically(folder / "camera.yaml", CameraText(run));
     WriteFileAtomically(folder / "intrinsics.json", json);
     WriteFileAtomically(folder / "report.html", page);
   });

@@ -63,6 +63,7 @@ ordered_json HalvesJson(const IntrinsicsRun& run) {
           {"ratio", is_done ? ordered_json(halves.ratio) : ordered_json()},
           {"ratio_limit", is_done ? ordered_json(halves.ratio_limit) : ordered_json()},
           {"misfit", halves.HasMisfit()},
+          {"sigma_factor", run.result.widening},
           {"sentence", HalvesSentence(run)}};
 }
 

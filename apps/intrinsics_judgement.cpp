@@ -51,6 +51,12 @@ void AddLensWarnings(const IntrinsicsRun& run, std::vector<std::string>& warning
         sigma_px, *neighbours_px, run.settings.estimates_warp ? "" : " (--board-warp tells)"));
 }
 
+// Nothing where the lens model fits.
+std::string WideningClause(const BoardCalibration& result) {
+  if (result.widening == 1) return "";
+  return fmt::format("; the camera's σ are therefore {:.2g} times what the residuals give", result.widening);
+}
+
 // Coefficients that are not known to anything like their own size are a lens that needs fewer.
 void AddCoefficientWarning(const IntrinsicsRun& run, std::vector<std::string>& warnings) {
   constexpr double kUnknownCoefficient = 1;  // of 1 it moves a corner by its own distance from the centre
@@ -145,9 +151,11 @@ std::string HalvesSentence(const IntrinsicsRun& run) {
     return seen + fmt::format(" (up to {:.2g} is chance): the lens model fits", halves.ratio_limit);
   const bool can_more =
       run.settings.lens == LensModel::kPinhole || run.settings.lens == LensModel::kBrownConrady;
-  return seen + fmt::format(" ({:.2g} at most is chance): the lens model does not fit{}", halves.ratio_limit,
+  return seen + fmt::format(" ({:.2g} at most is chance): the lens model does not fit{}{}",
+                            halves.ratio_limit,
                             can_more ? "; try --lens rational or fisheye"
-                                     : ", or something moved: focus, zoom, the board");
+                                     : ", or something moved: focus, zoom, the board",
+                            WideningClause(run.result));
 }
 
 std::string CoverageSentence(const IntrinsicsRun& run) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "apps/intrinsics_layout.h"
 #include "calib/board/layout_check.h"
@@ -73,7 +74,6 @@ void DemandNoContradiction(const IntrinsicsRun& run) {
 }
 
 void WorkOutUncertainty(IntrinsicsRun& run) {
-  run.board_distance_m = MedianDistance_m(run.result);
   std::vector<double> distances_m = run.settings.distances_m;
   if (distances_m.empty())
     distances_m = {run.board_distance_m, 3 * run.board_distance_m, std::numeric_limits<double>::infinity()};
@@ -103,9 +103,11 @@ void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {
   DemandNoContradiction(run);
   if (run.result.status != BoardCalibrationStatus::kConverged) return;
   progress.Show("comparing two halves of the views");
-  WorkOutUncertainty(run);
+  run.board_distance_m = MedianDistance_m(run.result);
   const ImageGrid coarse{kCoarseColumns, kCoarseRows, run.board_distance_m};
   run.halves = CompareHalves(run.input, run.result, run.options, coarse);
+  run.result = Widened(std::move(run.result), run.halves.Widening());
+  WorkOutUncertainty(run);
   run.neighbour_scatter = NeighbourScatter(run.input, run.result, run.settings.trusts_all);
   run.coverage = CoverageOf(run.input, run.result, kCoverageColumns, kCoverageRows);
   progress.Show("looking for the view to add next");

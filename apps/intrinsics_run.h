@@ -25,7 +25,7 @@ struct IntrinsicsRun {
   BoardCalibrationOptions options;
   std::string content_hash;
 
-  BoardCalibration result;
+  BoardCalibration result;  // widened where the halves say that the lens model does not fit
   // Where there is a camera:
   double board_distance_m = 0;  // median over the views
   std::vector<UncertaintyMap> maps;
