@@ -66,6 +66,7 @@ int RunIntrinsics(const IntrinsicsSettings& settings, const Console& console) {
     console.err << fmt::format("legible: no camera: {}\n", run.result.message) << ReasonsText(run);
     return kExitNoResult;
   }
+  WorkOutUncertainty(run, progress);
   progress.Show("writing the report");
   run.seconds = total.Seconds();
   const std::vector<std::string> warnings = Warnings(run);

@@ -91,7 +91,7 @@ void AddFit(const IntrinsicsRun& run, ordered_json& json) {
   json["corners_left_out"] = result.corners_left_out;
   json["corners_not_measured"] = CornersNotMeasured(run);
   json["corners_weighed_down"] = CornersWeighedDown(result);
-  json["board_warp_m"] = run.settings.estimates_warp ? List(result.warp.bend_m) : ordered_json();
+  json["board_warp_m"] = run.settings.board_fit.estimates_warp ? List(result.warp.bend_m) : ordered_json();
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void AddLensWarnings(const IntrinsicsRun& run, std::vector<std::string>& warning
     warnings.push_back(fmt::format(
         "corners lie {:.3g} px from where the model has them, neighbours {:.3g} px from each other: what the "
         "lens model does not have, or a board that is not flat{}",
-        sigma_px, *neighbours_px, run.settings.estimates_warp ? "" : " (--board-warp tells)"));
+        sigma_px, *neighbours_px, run.settings.board_fit.estimates_warp ? "" : " (--board-warp tells)"));
 }
 
 // Nothing where the lens model fits.
