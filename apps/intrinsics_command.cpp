@@ -53,6 +53,12 @@ void Write(const IntrinsicsRun& run, const std::string& json, const std::string&
   });
 }
 
+int SayThereIsNone(const IntrinsicsRun& run, const Console& console) {
+  console.err << fmt::format("legible: no camera: {}\n", run.result.message) << ReasonsText(run);
+  if (run.settings.prints_json) console.out << JsonText(FailureJson(run));
+  return kExitNoResult;
+}
+
 }  // namespace
 
 int RunIntrinsics(const IntrinsicsSettings& settings, const Console& console) {
@@ -63,8 +69,8 @@ int RunIntrinsics(const IntrinsicsSettings& settings, const Console& console) {
   Calibrate(run, progress);
   if (run.result.status != BoardCalibrationStatus::kConverged) {
     progress.Clear();
-    console.err << fmt::format("legible: no camera: {}\n", run.result.message) << ReasonsText(run);
-    return kExitNoResult;
+    run.seconds = total.Seconds();
+    return SayThereIsNone(run, console);
   }
   WorkOutUncertainty(run, progress);
   progress.Show("writing the report");
