@@ -15,6 +15,7 @@ namespace legible {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr char kBoardYaml[] =
@@ -100,11 +101,13 @@ TEST_F(BoardAndSession, SayWhichLensToTakeWhereTheBoardsCoefficientsAreNotToldAp
   const ProgramRun intrinsics = RunLegible({"intrinsics", views().string(), "--board", board().string(),
                                             "--lens", "rational", "--out", camera.string(), "--no-pictures"});
   ASSERT_EQ(intrinsics.exit_code, kExitSuccess) << intrinsics.err;
-  std::cout << intrinsics.err << intrinsics.out;
+  EXPECT_THAT(intrinsics.err, HasSubstr("the coefficients of the rational lens are not told apart"));
   std::filesystem::copy(camera / "camera.yaml", session() / "camera.yaml",
                         std::filesystem::copy_options::overwrite_existing);
   const ProgramRun run = RunOnIt({"--folds", "0", "--no-pictures"});
-  std::cout << run.exit_code << run.err << run.out;
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("combination of camera.k"),
+                             HasSubstr("calibrate the camera with a lens model of fewer")));
 }
 
 }  // namespace
