@@ -94,6 +94,7 @@ void AddBoard(CalibrationRun& run, ProgressLine& progress) {
   board.images = settings.board_images;
   board.board = *settings.board;
   board.lens = settings.lens.value_or(run.session.camera.lens);
+  board.board_fit = settings.board_fit;
   board.threads = settings.threads;
   run.board = LoadViews(board, progress);
   const BoardCalibrationInput& input = run.board->input;
@@ -126,8 +127,9 @@ CalibrationRun Load(const CalibrateSettings& settings, ProgressLine& progress) {
   } catch (const std::invalid_argument& error) {
     throw InputError(run.session.folder, 0, "cannot be calibrated with these --tags", error.what());
   }
-  run.content_hash = ContentHash(run.session);
   if (settings.board) AddBoard(run, progress);
+  run.content_hash =
+      ContentHash(run.session, run.board ? run.board->files : std::vector<std::filesystem::path>{});
   return run;
 }
 

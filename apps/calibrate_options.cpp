@@ -107,6 +107,7 @@ void AddBoardOptions(CLI::App& command, CalibrateSettings& settings) {
       ->type_name("BOARD.yaml")
       ->needs(images);
   images->needs("--board");
+  for (CLI::Option* option : AddBoardFitOptions(command, settings.board_fit)) option->needs(images);
 }
 
 void AddWorkOptions(CLI::App& command, CalibrateSettings& settings) {

@@ -175,6 +175,7 @@ std::string OptionsText(const CalibrateSettings& settings) {
     std::string images = "--with-board";
     for (const std::filesystem::path& path : settings.board_images) images += " " + path.string();
     words.push_back(fmt::format("{} --board {}", images, settings.board->string()));
+    for (const std::string& word : OptionWords(settings.board_fit)) words.push_back(word);
   }
   if (!settings.use_readings) words.push_back("--no-readings");
   if (settings.free_legs) words.push_back("--free-legs");

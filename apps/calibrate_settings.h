@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/board_fit_settings.h"
 #include "calib/session_calibration.h"
 #include "core/session/session.h"
 
@@ -23,6 +24,7 @@ struct CalibrateSettings {
   std::vector<std::string> tags;  // groups of tags.yaml that count as observations, or "all"
   std::vector<std::filesystem::path> board_images;  // to be solved together with the legs
   std::optional<std::filesystem::path> board;       // that they show
+  BoardFitSettings board_fit;
   bool use_readings = true;
   bool free_legs = false;  // edges only
   int folds = 5;

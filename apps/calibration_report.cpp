@@ -90,7 +90,7 @@ json OptionsJson(const CalibrationRun& run) {
                           : std::string("none")},
       {"first camera pose from", run.result.first_pose_from},
       {"folds of the held-out images", run.options.folds},
-      {"content hash of the session", run.content_hash}};
+      {run.board ? "content hash of session and board" : "content hash of the session", run.content_hash}};
 }
 
 }  // namespace

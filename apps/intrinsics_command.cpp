@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/intrinsics_json.h"
@@ -39,13 +40,25 @@ std::string ReasonsText(const IntrinsicsRun& run) {
   return other.empty() ? text : text + "  " + other + "\n";
 }
 
+std::string CameraText(const IntrinsicsRun& run) {
+  std::string text = CameraInfoText({run.result.camera, std::nullopt, run.result.information.information});
+  if (!run.halves.HasMisfit()) return text;
+  return fmt::format("# The lens model does not fit: `information` is {:.4g} of what the residuals give.\n{}",
+                     1 / std::pow(run.result.widening, 2), text);
+}
+
 void Write(const IntrinsicsRun& run, const std::string& json, const std::string& page) {
   WriteTogether(run.settings.out, kFiles, [&](const std::filesystem::path& folder) {
-    WriteFileAtomically(folder / "camera.yaml", CameraInfoText({run.result.camera, std::nullopt,
-                                                                run.result.information.information}));
+    WriteFileAtomically(folder / "camera.yaml", CameraText(run));
     WriteFileAtomically(folder / "intrinsics.json", json);
     WriteFileAtomically(folder / "report.html", page);
   });
+}
+
+int SayThereIsNone(const IntrinsicsRun& run, const Console& console) {
+  console.err << fmt::format("legible: no camera: {}\n", run.result.message) << ReasonsText(run);
+  if (run.settings.prints_json) console.out << JsonText(FailureJson(run));
+  return kExitNoResult;
 }
 
 }  // namespace
@@ -58,9 +71,10 @@ int RunIntrinsics(const IntrinsicsSettings& settings, const Console& console) {
   Calibrate(run, progress);
   if (run.result.status != BoardCalibrationStatus::kConverged) {
     progress.Clear();
-    console.err << fmt::format("legible: no camera: {}\n", run.result.message) << ReasonsText(run);
-    return kExitNoResult;
+    run.seconds = total.Seconds();
+    return SayThereIsNone(run, console);
   }
+  WorkOutUncertainty(run, progress);
   progress.Show("writing the report");
   run.seconds = total.Seconds();
   const std::vector<std::string> warnings = Warnings(run);

@@ -63,6 +63,7 @@ ordered_json HalvesJson(const IntrinsicsRun& run) {
           {"ratio", is_done ? ordered_json(halves.ratio) : ordered_json()},
           {"ratio_limit", is_done ? ordered_json(halves.ratio_limit) : ordered_json()},
           {"misfit", halves.HasMisfit()},
+          {"sigma_factor", run.result.widening},
           {"sentence", HalvesSentence(run)}};
 }
 
@@ -90,7 +91,15 @@ void AddFit(const IntrinsicsRun& run, ordered_json& json) {
   json["corners_left_out"] = result.corners_left_out;
   json["corners_not_measured"] = CornersNotMeasured(run);
   json["corners_weighed_down"] = CornersWeighedDown(result);
-  json["board_warp_m"] = run.settings.estimates_warp ? List(result.warp.bend_m) : ordered_json();
+  json["board_warp_m"] = run.settings.board_fit.estimates_warp ? List(result.warp.bend_m) : ordered_json();
+}
+
+void AddProvenance(const IntrinsicsRun& run, ordered_json& json) {
+  json["iterations"] = run.result.iterations;
+  json["time_s"] = run.seconds;
+  json["program_version"] = ProgramVersion();
+  json["options"] = OptionsText(run.settings);
+  json["content_hash"] = run.content_hash;
 }
 
 }  // namespace
@@ -109,11 +118,17 @@ ordered_json IntrinsicsJson(const IntrinsicsRun& run, const std::vector<std::str
                       {"largest_tilt_rad", run.coverage.LargestTilt()},
                       {"sentence", CoverageSentence(run)}};
   json["next_view"] = NextViewJson(run);
-  json["iterations"] = result.iterations;
-  json["time_s"] = run.seconds;
-  json["program_version"] = ProgramVersion();
-  json["options"] = OptionsText(run.settings);
-  json["content_hash"] = run.content_hash;
+  AddProvenance(run, json);
+  return json;
+}
+
+ordered_json FailureJson(const IntrinsicsRun& run) {
+  ordered_json json = {{"status", ToString(run.result.status)},
+                       {"message", run.result.message},
+                       {"warnings", ordered_json::array()},
+                       {"views_used", 0},
+                       {"views_left_out", ViewsLeftOut(run)}};
+  AddProvenance(run, json);
   return json;
 }
 

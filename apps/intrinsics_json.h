@@ -9,6 +9,10 @@
 
 namespace legible {
 
+// Where there is a camera, and all that has been worked out of it.
 nlohmann::ordered_json IntrinsicsJson(const IntrinsicsRun& run, const std::vector<std::string>& warnings);
+
+// Where there is none: status, message, and what became of the views.
+nlohmann::ordered_json FailureJson(const IntrinsicsRun& run);
 
 }  // namespace legible

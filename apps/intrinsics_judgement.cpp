@@ -48,7 +48,13 @@ void AddLensWarnings(const IntrinsicsRun& run, std::vector<std::string>& warning
     warnings.push_back(fmt::format(
         "corners lie {:.3g} px from where the model has them, neighbours {:.3g} px from each other: what the "
         "lens model does not have, or a board that is not flat{}",
-        sigma_px, *neighbours_px, run.settings.estimates_warp ? "" : " (--board-warp tells)"));
+        sigma_px, *neighbours_px, run.settings.board_fit.estimates_warp ? "" : " (--board-warp tells)"));
+}
+
+// Nothing where the lens model fits.
+std::string WideningClause(const BoardCalibration& result) {
+  if (result.widening == 1) return "";
+  return fmt::format("; the camera's σ are therefore {:.2g} times what the residuals give", result.widening);
 }
 
 // Coefficients that are not known to anything like their own size are a lens that needs fewer.
@@ -145,9 +151,11 @@ std::string HalvesSentence(const IntrinsicsRun& run) {
     return seen + fmt::format(" (up to {:.2g} is chance): the lens model fits", halves.ratio_limit);
   const bool can_more =
       run.settings.lens == LensModel::kPinhole || run.settings.lens == LensModel::kBrownConrady;
-  return seen + fmt::format(" ({:.2g} at most is chance): the lens model does not fit{}", halves.ratio_limit,
+  return seen + fmt::format(" ({:.2g} at most is chance): the lens model does not fit{}{}",
+                            halves.ratio_limit,
                             can_more ? "; try --lens rational or fisheye"
-                                     : ", or something moved: focus, zoom, the board");
+                                     : ", or something moved: focus, zoom, the board",
+                            WideningClause(run.result));
 }
 
 std::string CoverageSentence(const IntrinsicsRun& run) {

@@ -92,9 +92,7 @@ void AddModelOptions(CLI::App& command, IntrinsicsSettings& settings) {
           },
           "Lens model: 0, 4, 5 or 8 coefficients;\nbrown-conrady without it")
       ->type_name(fmt::format("{}", fmt::join(LensNames(), "|")));
-  command.add_flag("--board-warp", settings.estimates_warp, "Estimate by how much the board is bent as well");
-  command.add_flag("--all-corners", settings.trusts_all,
-                   "Every corner counts alike, however far off: no\nweights, no outliers");
+  AddBoardFitOptions(command, settings.board_fit);
 }
 
 }  // namespace
@@ -102,8 +100,7 @@ void AddModelOptions(CLI::App& command, IntrinsicsSettings& settings) {
 std::string OptionsText(const IntrinsicsSettings& settings) {
   std::vector<std::string> words;
   if (settings.lens != LensModel::kBrownConrady) words.push_back("--lens " + LensName(settings.lens));
-  if (settings.estimates_warp) words.emplace_back("--board-warp");
-  if (settings.trusts_all) words.emplace_back("--all-corners");
+  for (const std::string& word : OptionWords(settings.board_fit)) words.push_back(word);
   if (settings.guess) words.push_back("--guess " + *settings.guess);
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, " "));
 }

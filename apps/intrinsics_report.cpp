@@ -130,9 +130,9 @@ json OptionsJson(const IntrinsicsRun& run) {
   return {{"options given", OptionsText(run.settings)},
           {"lens", LensName(run.settings.lens)},
           {"board", BoardText(run.board)},
-          {"board's bend", run.settings.estimates_warp ? "estimated" : "none assumed"},
-          {"outliers",
-           run.settings.trusts_all ? "every corner counts alike" : "weighed down from 3 σ, left out from 6"},
+          {"board's bend", run.settings.board_fit.estimates_warp ? "estimated" : "none assumed"},
+          {"outliers", run.settings.board_fit.trusts_all ? "every corner counts alike"
+                                                         : "weighed down from 3 σ, left out from 6"},
           {"content hash of board and corners or images", run.content_hash}};
 }
 

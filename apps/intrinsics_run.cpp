@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "apps/intrinsics_layout.h"
 #include "calib/board/layout_check.h"
@@ -72,15 +73,19 @@ void DemandNoContradiction(const IntrinsicsRun& run) {
                      "leave --guess out, for none is needed, or mend it");
 }
 
-void WorkOutUncertainty(IntrinsicsRun& run) {
-  run.board_distance_m = MedianDistance_m(run.result);
+std::vector<UncertaintyMap> MapsOf(const IntrinsicsRun& run) {
   std::vector<double> distances_m = run.settings.distances_m;
   if (distances_m.empty())
     distances_m = {run.board_distance_m, 3 * run.board_distance_m, std::numeric_limits<double>::infinity()};
+  std::vector<UncertaintyMap> maps;
+  maps.reserve(distances_m.size());
   for (const double distance_m : distances_m)
-    run.maps.push_back(
+    maps.push_back(
         PixelUncertainty(run.result.camera, run.result.information, {kMapColumns, kMapRows, distance_m}));
+  return maps;
 }
+
+ImageGrid CoarseGrid(const IntrinsicsRun& run) { return {kCoarseColumns, kCoarseRows, run.board_distance_m}; }
 
 }  // namespace
 
@@ -91,8 +96,8 @@ std::optional<double> IntrinsicsRun::NeighbourSigma_px() const {
 
 void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {
   run.options.lens = run.settings.lens;
-  run.options.estimates_warp = run.settings.estimates_warp;
-  run.options.trusts_all = run.settings.trusts_all;
+  run.options.estimates_warp = run.settings.board_fit.estimates_warp;
+  run.options.trusts_all = run.settings.board_fit.trusts_all;
   run.options.threads = run.settings.threads;
   if (run.settings.guess) run.options.guess = GuessOf(run.settings, run.input);
   run.options.progress = [&progress](const std::string& stage, int iteration, double rms_px) {
@@ -103,13 +108,17 @@ void Calibrate(IntrinsicsRun& run, ProgressLine& progress) {
   DemandNoContradiction(run);
   if (run.result.status != BoardCalibrationStatus::kConverged) return;
   progress.Show("comparing two halves of the views");
-  WorkOutUncertainty(run);
-  const ImageGrid coarse{kCoarseColumns, kCoarseRows, run.board_distance_m};
-  run.halves = CompareHalves(run.input, run.result, run.options, coarse);
-  run.neighbour_scatter = NeighbourScatter(run.input, run.result, run.settings.trusts_all);
+  run.board_distance_m = MedianDistance_m(run.result);
+  run.halves = CompareHalves(run.input, run.result, run.options, CoarseGrid(run));
+  run.result = Widened(std::move(run.result), run.halves.Widening());
+  run.neighbour_scatter = NeighbourScatter(run.input, run.result, run.settings.board_fit.trusts_all);
   run.coverage = CoverageOf(run.input, run.result, kCoverageColumns, kCoverageRows);
+}
+
+void WorkOutUncertainty(IntrinsicsRun& run, ProgressLine& progress) {
+  run.maps = MapsOf(run);
   progress.Show("looking for the view to add next");
-  run.next_view = ProposeView(run.input, run.result, {coarse, run.board.chessboard.has_value()});
+  run.next_view = ProposeView(run.input, run.result, {CoarseGrid(run), run.board.chessboard.has_value()});
 }
 
 }  // namespace legible

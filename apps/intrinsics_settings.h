@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/board_fit_settings.h"
 #include "core/geometry/camera.h"
 
 namespace legible {
@@ -18,8 +19,7 @@ struct IntrinsicsSettings {
   std::optional<std::pair<int, int>> image_size_px;  // width, height; for corners without images
   std::filesystem::path out = "intrinsics";
   LensModel lens = LensModel::kBrownConrady;
-  bool estimates_warp = false;
-  bool trusts_all = false;
+  BoardFitSettings board_fit;
   std::optional<std::string> guess;               // as it was typed: a camera file, or a focal length
   std::optional<double> guessed_focal_length_px;  // where it is a number
   std::vector<double> distances_m;  // of the maps; none: the boards', three times that and infinity

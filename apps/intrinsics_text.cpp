@@ -35,7 +35,7 @@ std::string FitText(const IntrinsicsRun& run) {
   for (size_t i = 0; i < result.views.size(); ++i)
     if (!result.views[i].left_out.empty())
       text += fmt::format("  without {}: {}\n", run.input.views[i].name, result.views[i].left_out);
-  if (run.settings.estimates_warp)
+  if (run.settings.board_fit.estimates_warp)
     text += fmt::format("  the board's middle stands out by {:.3g} and {:.3g} mm\n",
                         1e3 * result.warp.bend_m[0], 1e3 * result.warp.bend_m[1]);
   return text;

@@ -96,7 +96,7 @@ void AddImages(IntrinsicsRun& run, const std::vector<std::filesystem::path>& fil
 }
 
 void AddCorners(IntrinsicsRun& run) {
-  for (ReadView& read : ReadCorners(*run.settings.corners, run.board, run.settings.trusts_all)) {
+  for (ReadView& read : ReadCorners(*run.settings.corners, run.board, run.settings.board_fit.trusts_all)) {
     run.input.views.push_back(std::move(read.view));
     run.left_out.push_back(std::move(read.left_out));
   }
@@ -147,15 +147,16 @@ IntrinsicsRun LoadViews(const IntrinsicsSettings& settings, ProgressLine& progre
   run.board = ReadBoard(settings.board);
   run.input.points_in_board_m = PointsOf(run.board);
   DemandEnoughPoints(run);
-  std::vector<std::filesystem::path> files = ImageFiles(settings.images);
+  const std::vector<std::filesystem::path> images = ImageFiles(settings.images);
   if (settings.corners)
     AddCorners(run);
   else
-    AddImages(run, files, progress);
+    AddImages(run, images, progress);
   DemandAgreement(run);
-  files.insert(files.begin(), settings.board);
-  if (settings.corners) files.push_back(*settings.corners);
-  run.content_hash = ContentHash(files);
+  run.files = {settings.board};
+  run.files.insert(run.files.end(), images.begin(), images.end());
+  if (settings.corners) run.files.push_back(*settings.corners);
+  run.content_hash = ContentHash(run.files);
   return run;
 }
 

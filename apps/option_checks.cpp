@@ -64,6 +64,14 @@ void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::o
       ->allow_extra_args(false);
 }
 
+std::vector<CLI::Option*> AddBoardFitOptions(CLI::App& command, BoardFitSettings& settings) {
+  return {
+      command.add_flag("--board-warp", settings.estimates_warp,
+                       "Estimate by how much the board is bent as well"),
+      command.add_flag("--all-corners", settings.trusts_all,
+                       "Every corner of the board counts alike, however far\noff: no weights, no outliers")};
+}
+
 void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description) {
   const auto take = [&prints_json](const std::string& format) {
     DemandOneOf("--format", format, {"table", "json"});

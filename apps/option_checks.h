@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/board_fit_settings.h"
+
 namespace legible {
 
 inline constexpr int kMostThreads = 1024;
@@ -32,6 +34,9 @@ CLI::Option* AddText(CLI::App& command, const std::string& name, const std::stri
 // "--known NAME=SIGMA", comma separated or repeated, which the description need not say; nor the names.
 void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::optional<double>>>& known,
                     const std::string& description);
+
+// "--board-warp" and "--all-corners".
+std::vector<CLI::Option*> AddBoardFitOptions(CLI::App& command, BoardFitSettings& settings);
 
 // "--format table|json".
 void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description);

@@ -69,8 +69,8 @@ std::string RenderServoPage(const nlohmann::json& data);
 //              views_left_out [{name, why}], corners_used, corners_left_out, corners_weighed_down,
 //              board_warp_m [x, y], uncertainty [{distance_m (null: infinitely far), rms_px, worst_px}],
 //              cross_validation {why_not, difference_rms_px, expected_rms_px, ratio, ratio_limit, misfit,
-//              sentence}, coverage {share, largest_tilt_rad, sentence}, next_view {sentence, centre_px,
-//              tilt_rad, tilt_direction_rad, distance_m, now_px, then_px}, time_s (a number, or
+//              sigma_factor, sentence}, coverage {share, largest_tilt_rad, sentence}, next_view {sentence,
+//              centre_px, tilt_rad, tilt_direction_rad, distance_m, now_px, then_px}, time_s (a number, or
 //              {stage: s, ..., total}), iterations, options, content_hash
 //   views      [{name (each its own), width, height, picture (a data: address), left_out (why), rms_px,
 //              tilt_rad, tilt_direction_rad (0: the board's right side is farther away; clockwise in the

@@ -21,13 +21,13 @@ constexpr double kSteadyCommon = 1e-2;  // of the edges' shift and tilt, which s
 constexpr double kSteadyWeight = 1e-4;  // mean absolute change of the weights at which they end
 constexpr double kAbsurdRms_px = 20;    // a fit this bad is a wrong model, not noise
 
-// What the corners of a board tell beyond where it stood in each view.
+// What the corners of a board tell beyond where it stood in each view, as far as they count.
 int BoardFreedom(const BoardProblem& board) {
   int freedom = -6 * static_cast<int>(board.views.size()) - (board.estimates_warp ? 2 : 0);
   for (const ViewObservation& view : board.views)
     for (const Eigen::Matrix2d& whitening : view.whitening_per_px)
       if (!whitening.isZero(0)) freedom += 2;
-  return freedom;
+  return static_cast<int>(std::lround(board.mean_square * freedom));
 }
 
 // Infinite where the camera does not see the board.

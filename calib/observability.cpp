@@ -142,14 +142,27 @@ bool IsOfDistortionAlone(const Eigen::VectorXd& direction) {
   return direction.segment(kFirst, kCameraParameterCount - kFirst).norm() > 0.99 * direction.norm();
 }
 
-std::string DescribeUnnamed(LensModel lens, const Eigen::VectorXd& direction, double relative_sigma) {
-  return fmt::format(
-      "a combination of {} is {}: {}", LargestEntries(lens, direction),
-      relative_sigma < 1 ? fmt::format("known only to {:.0f} % of its size", 100 * relative_sigma)
+// A board has said all that is said of the camera beforehand.
+bool HasBoard(const EstimationProblem& problem) {
+  return problem.board || problem.camera_prior.root.rows() > 0;
+}
+
+const char* MendOf(const EstimationProblem& problem, const Eigen::VectorXd& direction) {
+  if (!IsOfDistortionAlone(direction)) return "hold one of them fixed or say how well it is known";
+  if (HasBoard(problem))
+    return "the board does not tell these coefficients apart either; calibrate the camera with a lens model "
+           "of "
+           "fewer";
+  return "say how well the distortion is known, or take a lens model with fewer coefficients";
+}
+
+std::string DescribeUnnamed(const EstimationProblem& problem, const Eigen::VectorXd& direction,
+                            double relative_sigma) {
+  return fmt::format("a combination of {} is {}: {}", LargestEntries(problem.camera.lens, direction),
+                     relative_sigma < 1
+                         ? fmt::format("known only to {:.0f} % of its size", 100 * relative_sigma)
                          : "not determined",
-      IsOfDistortionAlone(direction)
-          ? "say how well the distortion is known, or take a lens model with fewer coefficients"
-          : "hold one of them fixed or say how well it is known");
+                     MendOf(problem, direction));
 }
 
 // Names the null space: first the freedoms that have a name, then what is left of it by its largest entries.
@@ -174,8 +187,7 @@ std::vector<WeakDirection> NameUnobservable(const EstimationProblem& problem, co
     space *=
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(space.transpose() * relative * space).eigenvectors();
   for (Eigen::Index i = 0; i < space.cols(); ++i)
-    add(DescribeUnnamed(problem.camera.lens, space.col(i), SigmaAlong(space.col(i), relative, zero)),
-        space.col(i));
+    add(DescribeUnnamed(problem, space.col(i), SigmaAlong(space.col(i), relative, zero)), space.col(i));
   return result;
 }
 

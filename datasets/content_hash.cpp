@@ -29,20 +29,25 @@ std::string ChecksumLine(const std::filesystem::path& file, const std::filesyste
   return fmt::format("{}  {}\n", Sha256(ReadBytes(file)), name.generic_string());
 }
 
+// Each in its own folder.
+std::string ChecksumLines(const std::vector<std::filesystem::path>& files) {
+  std::string lines;
+  for (const std::filesystem::path& file : files) lines += ChecksumLine(file, file.parent_path());
+  return lines;
+}
+
 }  // namespace
 
 std::string ContentHash(const std::vector<std::filesystem::path>& files) {
-  std::string lines;
-  for (const std::filesystem::path& file : files) lines += ChecksumLine(file, file.parent_path());
-  return Sha256(lines);
+  return Sha256(ChecksumLines(files));
 }
 
-std::string ContentHash(const Session& session) {
+std::string ContentHash(const Session& session, const std::vector<std::filesystem::path>& more) {
   if (session.files.empty()) throw std::invalid_argument("the session was not read from files");
   std::string lines;
   for (const std::filesystem::path& file : session.files) lines += ChecksumLine(file, session.folder);
   for (const SessionImage& image : session.images) lines += ChecksumLine(image.file, session.folder);
-  return Sha256(lines);
+  return Sha256(lines + ChecksumLines(more));
 }
 
 }  // namespace legible

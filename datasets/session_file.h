@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/session/session.h"
 
@@ -22,8 +23,9 @@ void WriteSession(const std::filesystem::path& folder, const Session& session);
 
 // SHA-256 of what the session was read from, 64 hexadecimal digits: that of the lines that
 // `sha256sum FILE…` prints, run in the session's folder on session.yaml, the files that it names in the order
-// robot, camera, joints, tags, and the images in the order of joints.csv. Throws InputError if one cannot be
-// read and std::invalid_argument if the session does not come from ReadSession.
-std::string ContentHash(const Session& session);
+// robot, camera, joints, tags, and the images in the order of joints.csv, then in their own folders on `more`
+// files, in that order. Throws InputError if one cannot be read and std::invalid_argument if the session does
+// not come from ReadSession.
+std::string ContentHash(const Session& session, const std::vector<std::filesystem::path>& more = {});
 
 }  // namespace legible

@@ -451,9 +451,11 @@ BoardCalibration CameraCalibrator::From(const BoardCalibration& earlier) {
 
 BoardProblem CameraCalibrator::SolvedBy(const BoardCalibration& solution) {
   Place(solution);
-  noise_factor_ = solution.noise_factor;
+  noise_factor_ = solution.widening * solution.noise_factor;
   for (UsedView& view : views_) view.weight = solution.views[view.source].weight;
-  return Whitened();
+  BoardProblem problem = Whitened();
+  problem.mean_square = 1 / (solution.widening * solution.widening);
+  return problem;
 }
 
 }  // namespace
@@ -484,6 +486,13 @@ void BoardCalibrationOptions::Check() const {
 BoardCalibration CalibrateCamera(const BoardCalibrationInput& input, const BoardCalibrationOptions& options) {
   options.Check();
   return CameraCalibrator(input, options).FromNothing();
+}
+
+BoardCalibration Widened(BoardCalibration calibration, double factor) {
+  calibration.widening *= factor;
+  calibration.information.information /= factor * factor;
+  calibration.information.covariance *= factor * factor;
+  return calibration;
 }
 
 BoardProblem SolvedProblem(const BoardCalibrationInput& input, const BoardCalibration& calibration,

@@ -68,6 +68,7 @@ struct BoardCalibration {
       0;                   // of one coordinate of a corner, rms over them: their own sigmas and the factor
   int distinct_views = 0;  // that show the board in different places
   BoardInformation information;  // where converged: in the units of the noise that the residuals show
+  double widening = 1;           // by which all sigmas are larger than the residuals show; see Widened
 };
 
 BoardCalibration CalibrateCamera(const BoardCalibrationInput& input, const BoardCalibrationOptions& options);
@@ -76,8 +77,12 @@ BoardCalibration CalibrateCamera(const BoardCalibrationInput& input, const Board
 BoardCalibration RefineCamera(const BoardCalibrationInput& input, const BoardCalibration& from,
                               const BoardCalibrationOptions& options);
 
-// The calibration's views that have a part, with the weights and the noise that it came to: the least-squares
-// problem of which it is the solution, for solving together with other observations of the same camera.
+// With all sigmas larger by that factor: the information is its square smaller, that of SolvedProblem too.
+BoardCalibration Widened(BoardCalibration calibration, double factor);
+
+// The calibration's views that have a part, with the weights, the noise and the widening that it came to: the
+// least-squares problem of which it is the solution, for solving together with other observations of the same
+// camera.
 BoardProblem SolvedProblem(const BoardCalibrationInput& input, const BoardCalibration& calibration,
                            const BoardCalibrationOptions& options);
 

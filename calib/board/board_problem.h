@@ -43,6 +43,8 @@ struct BoardProblem {
   std::vector<ViewObservation> views;
   BoardWarp warp;
   bool estimates_warp = false;
+  double mean_square =
+      1;  // of a whitened residual at the solution: below 1 where all of them are weighed down
 
   // Of the camera: four, and its lens' coefficients.
   int CameraUnknowns() const { return 4 + static_cast<int>(camera.lens); }

@@ -132,6 +132,7 @@ HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCa
   for (const BoardCalibration& half : found)
     covariance += std::pow(scatter / half.noise_factor, 2) * half.information.CameraCovariance();
   Compare(found[0].camera, found[1].camera, covariance, result);
+  result.ratio_to_stated = result.ratio * scatter / whole.noise_factor;
   return result;
 }
 

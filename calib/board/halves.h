@@ -2,6 +2,7 @@
 // uncertainties allow.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,13 @@ struct HalvesComparison {
   double expected_rms_px = 0;                      // by both covariances
   double ratio = 1;  // differences in units of what is expected of each, rms; 1 where the model is right
   double ratio_limit = 1;  // that a right model stays below 999 times in 1000
+  // As `ratio`, in units of what the noise of the whole calibration's residuals lets expect, which a misfit
+  // enlarges.
+  double ratio_to_stated = 1;
   bool HasMisfit() const { return why_not.empty() && ratio > ratio_limit; }
+  // By which the sigmas of the whole calibration have to be larger (see Widened) so as not to claim more than
+  // its halves bear out; 1 where the lens model fits.
+  double Widening() const { return HasMisfit() ? std::max(1.0, ratio_to_stated) : 1; }
 };
 
 // `whole` is a calibration of the input by these options. The halves are every other view that took part.

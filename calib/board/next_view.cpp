@@ -112,7 +112,7 @@ class Proposer {
   // What the camera would see of the board there, with the noise that it has had so far.
   ViewObservation Observe(const Rigid3& camera_from_board) const {
     ViewObservation seen{camera_from_board, {}, {}, {}};
-    const double sigma_px = calibration_.corner_sigma_px;
+    const double sigma_px = calibration_.widening * calibration_.corner_sigma_px;
     const Eigen::Vector3d normal = camera_from_board.rotation * Eigen::Vector3d::UnitZ();
     const double reach = MonotonicRadius(calibration_.camera.lens, calibration_.camera.distortion);
     for (const Eigen::Vector3d& point : sample_.points_m) {

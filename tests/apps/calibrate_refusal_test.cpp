@@ -111,6 +111,8 @@ TEST_F(CalibrateRefuses, BadUsageNamingTheOptionAndTheHelp) {
     refused({"--seed", seed}, "--seed: give a whole number of at most 9 digits");
   refused({"--out", ""}, "--out: name a folder");
   refused({"--threads", "0"}, "--threads");
+  for (const std::string of_board : {"--board-warp", "--all-corners"})
+    refused({of_board}, of_board + " requires --with-board");
 }
 
 TEST_F(CalibrateRefuses, AFolderWhereAResultIsToBeWritten) {

@@ -134,6 +134,15 @@ TEST(CalibrateSettings, OptionsAreToldAsTheyWouldBeTyped) {
       "--folds 0 --seed 7");
 }
 
+TEST(CalibrateSettings, OptionsOfTheBoardAreWordedWithIt) {
+  CalibrateSettings settings;
+  settings.board_fit.estimates_warp = settings.board_fit.trusts_all = true;
+  EXPECT_EQ(OptionsText(settings), "none");  // without a board they change nothing
+  settings.board = "board.yaml";
+  settings.board_images = {"a", "b.png"};
+  EXPECT_EQ(OptionsText(settings), "--with-board a b.png --board board.yaml --board-warp --all-corners");
+}
+
 TEST(CalibrateSettings, LensNamesNameLenses) {
   for (const std::string& name : LensNames()) EXPECT_EQ(LensName(LensFromName(name).value()), name);
   EXPECT_EQ(LensFromName("plumb_bob"), std::nullopt);

@@ -147,6 +147,17 @@ TEST_F(BoardImages, RefuseToBeOne) {
   ExpectRefusal(RunOnIt(), kExitNoResult, HasSubstr("1 view of the board cannot determine a camera"));
 }
 
+TEST_F(BoardImages, SayInJsonTooThatThereIsNoCamera) {
+  KeepImages(2);
+  const ProgramRun run = RunOnIt({"--format", "json"});
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  const json document = json::parse(run.out);
+  EXPECT_EQ(document["status"], "too_few_views");
+  EXPECT_THAT(document["message"].get<std::string>(), HasSubstr("2 views of the board"));
+  EXPECT_FALSE(document.contains("camera"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
 TEST_F(BoardImages, RefuseToBeTheSameTenTimes) {
   for (int i = 1; i < kImages; ++i) {
     std::filesystem::remove(images() / fmt::format("{:03}.png", i));
@@ -258,19 +269,22 @@ TEST_F(BoardImages, OfAnotherSizeThanTheSessionsAreRefusedByCalibrate) {
 
 class WideLens : public testing::Test {
  protected:
-  json RunOnIt(const std::vector<std::string>& options) const {
+  std::vector<std::string> Arguments(const std::string& image_size) const {
     const std::filesystem::path data = std::filesystem::path(LEGIBLE_SOURCE_DIR) / "datasets/wide-lens";
-    std::vector<std::string> arguments = {"intrinsics",
-                                          "--corners",
-                                          (data / "corners.csv").string(),
-                                          "--image-size",
-                                          "6016x4016",
-                                          "--board",
-                                          (data / "board.yaml").string(),
-                                          "--out",
-                                          (folder_.path() / "out").string(),
-                                          "--format",
-                                          "json"};
+    return {"intrinsics",
+            "--corners",
+            (data / "corners.csv").string(),
+            "--image-size",
+            image_size,
+            "--board",
+            (data / "board.yaml").string(),
+            "--out",
+            (folder_.path() / "out").string(),
+            "--format",
+            "json"};
+  }
+  json RunOnIt(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments = Arguments("6016x4016");
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramRun run = RunLegible(arguments);
     EXPECT_EQ(run.exit_code, kExitSuccess) << run.err;
@@ -278,6 +292,17 @@ class WideLens : public testing::Test {
   }
   TemporaryFolder folder_;
 };
+
+// Some lie in the lower half of them.
+TEST_F(WideLens, RefusesImagesSmallerThanItsCorners) {
+  const ProgramRun run = RunLegible(Arguments("6016x2008"));
+  EXPECT_EQ(run.exit_code, kExitBadInput);
+  EXPECT_THAT(
+      run.err,
+      testing::ContainsRegex(
+          "corners.csv: has a corner of view [^ ]* at \\([0-9., ]*\\) px, outside an image of 6016 x 2008"));
+  EXPECT_EQ(run.out, "");
+}
 
 // mrcal and OpenCV find fx = 2070.484 px and 1.391 px a point, from a guess.
 TEST_F(WideLens, LeadsToThePublishedCameraFromNoGuess) {
@@ -300,6 +325,21 @@ TEST_F(WideLens, IsReportedNotToBeOneOfFiveCoefficients) {
 TEST_F(WideLens, IsReportedNotToBeOneOfFiveCoefficientsWhereOutliersAreLeftOutToo) {
   const json found = RunOnIt({});
   EXPECT_TRUE(found["cross_validation"]["misfit"].get<bool>());
+}
+
+// Of the same optimum mrcal's Jacobian gives a focal length of 2251.18 +- 2.78 px by the residuals: 65 sigmas
+// from that of eight coefficients. Its two halves of the views, projected into each other, differ by 5.17
+// times what that allows.
+TEST_F(WideLens, HandsOnNoMoreOfFiveCoefficientsThanTheirHalvesBearOut) {
+  const json found = RunOnIt({"--all-corners"});
+  const double sigma_px = found["camera"]["sigma"]["fx"];
+  EXPECT_NEAR(found["cross_validation"]["sigma_factor"], 5.17, 0.15);
+  EXPECT_NEAR(sigma_px, 5.17 * 2.784, 0.4);
+  EXPECT_THAT(found["cross_validation"]["sentence"].get<std::string>(),
+              HasSubstr("the camera's σ are therefore 5.2 times what the residuals give"));
+  const std::filesystem::path camera_yaml = folder_.path() / "out/camera.yaml";
+  EXPECT_NEAR(std::sqrt(ReadCamera(camera_yaml).information.inverse()(0, 0)), sigma_px, 1e-6);
+  EXPECT_THAT(Bytes(camera_yaml), testing::StartsWith("# The lens model does not fit"));
 }
 
 TEST_F(WideLens, LeavesNoCornerOutUncounted) {

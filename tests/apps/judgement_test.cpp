@@ -116,6 +116,21 @@ TEST(Warnings, NameImagesThatWereLeftOutForTheSameReasonTogether) {
               ElementsAre("2 of 13 images left out: damaged (2.png, 11.png)", "0.png: left out: dark"));
 }
 
+// A board that is solved together with the legs, its lens model poor.
+TEST(Warnings, SayByHowMuchABoardIsWeighedDown) {
+  const auto warnings = WarningsAfter([](CalibrationRun& run) {
+    IntrinsicsRun& board = run.board.emplace();
+    board.result.status = BoardCalibrationStatus::kConverged;
+    board.result.information = {Eigen::MatrixXd::Identity(9, 9), 1e-4 * Eigen::MatrixXd::Identity(15, 15)};
+    board.result = Widened(board.result, 2.5);
+    board.halves.ratio = 9;
+    board.halves.ratio_limit = 2;
+  });
+  EXPECT_THAT(warnings, testing::Contains(testing::AllOf(
+                            testing::StartsWith("the board: "), HasSubstr("the lens model does not fit"),
+                            HasSubstr("σ are therefore 2.5 times what the residuals give"))));
+}
+
 // Legs that are hidden as predicted say nothing against the model.
 TEST(Warnings, DoNotCountEdgesThatAreOutOfSight) {
   EXPECT_THAT(WarningsAfter([](CalibrationRun& run) {

@@ -1,5 +1,6 @@
 #include "calib/observability.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +11,10 @@
 
 namespace legible {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 std::string Descriptions(const std::vector<WeakDirection>& directions) {
   std::string text;
@@ -115,6 +120,24 @@ TEST(Observability, KnownRadiiTakeTheScalesAway) {
     problem.priors.push_back({FirstParameterOfLeg(leg) + leg_parameter::kRadius, 0.01, 1e-5});
   for (const WeakDirection& direction : AnalyseObservability(problem).unobservable)
     EXPECT_EQ(direction.description.find("scale"), std::string::npos) << direction.description;
+}
+
+// Without coefficients in the denominator each of its has the same derivative as one in the numerator.
+TEST(Observability, AdvisesFewerCoefficientsWhereThoseOfARationalLensAreNotToldApart) {
+  SyntheticOptions options;
+  options.image_count = 10;
+  options.camera.lens = LensModel::kRational;
+  const SyntheticSession session = GenerateSession(options);
+  EstimationProblem problem = ProblemAtTruth(session, session.exact_observations, {});
+  const auto descriptions = [&] { return Descriptions(AnalyseObservability(problem).unobservable); };
+  EXPECT_THAT(descriptions(), AllOf(HasSubstr("camera.k1"), HasSubstr("camera.k4"),
+                                    HasSubstr("say how well the distortion is known, or take a lens model "
+                                              "with fewer coefficients")));
+  // What a board has told leaves nothing else to be said.
+  problem.camera_prior.root.setIdentity(4, kCameraParameterCount);
+  EXPECT_THAT(descriptions(), AllOf(HasSubstr("camera.k1"), HasSubstr("camera.k4"),
+                                    HasSubstr("calibrate the camera with a lens model of fewer"),
+                                    Not(HasSubstr("say how well the distortion"))));
 }
 
 TEST(Observability, HoldingAThingRemovesItsRows) {

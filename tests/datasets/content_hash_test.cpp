@@ -8,7 +8,7 @@ using ContentHashOnDisk = SessionOnDisk;
 
 // `sha256sum FILE… | sha256sum`, run in the session's folder.
 std::string CoreutilsHash(const std::filesystem::path& folder, const std::string& files) {
-  const std::string command = "cd '" + folder.string() + "' && sha256sum " + files + " | sha256sum";
+  const std::string command = "cd '" + folder.string() + "' && { sha256sum " + files + "; } | sha256sum";
   FILE* pipe = popen(command.c_str(), "r");
   char digits[65] = {};
   if (fread(digits, 1, 64, pipe) != 64) digits[0] = '\0';
@@ -20,6 +20,15 @@ TEST_F(ContentHashOnDisk, IsThatOfSha256sum) {
   EXPECT_EQ(ContentHash(ReadSession(folder_.path())),
             CoreutilsHash(folder_.path(),
                           "session.yaml robot.yaml camera.yaml joints.csv images/b.png images/a.png"));
+}
+
+TEST_F(ContentHashOnDisk, GoesOnWithWhatIsSolvedTogetherWithTheSession) {
+  folder_.Write("elsewhere/board.yaml", "board: tags");
+  const auto board = folder_.path() / "elsewhere/board.yaml";
+  EXPECT_EQ(ContentHash(ReadSession(folder_.path()), {board}),
+            CoreutilsHash(folder_.path(),
+                          "session.yaml robot.yaml camera.yaml joints.csv images/b.png images/a.png; "
+                          "cd elsewhere; sha256sum board.yaml"));
 }
 
 TEST_F(ContentHashOnDisk, ChangesWithEveryFileThatIsUsedAndNoOther) {

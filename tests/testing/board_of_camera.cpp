@@ -25,16 +25,25 @@ Rigid3 PoseOf(const Camera& camera, int view) {
 
 }  // namespace
 
-CameraByBoard CalibrateByRenderedBoard(const Camera& camera, int views) {
+Board SixBySixTags() { return {"board", TagGrid("tag36h11", 6, 6, kTag_m, kGap_m), std::nullopt}; }
+
+std::vector<GrayImage> RenderViewsOfBoard(const Camera& camera, int views) {
   std::mt19937_64 generator(31);
-  const Board board{"board", TagGrid("tag36h11", 6, 6, kTag_m, kGap_m), std::nullopt};
+  std::vector<GrayImage> images;
+  images.reserve(static_cast<size_t>(views));
+  for (int view = 0; view < views; ++view)
+    images.push_back(WithNoise(RenderBoard(SixBySixTags(), camera, PoseOf(camera, view)), 2, generator));
+  return images;
+}
+
+CameraByBoard CalibrateByRenderedBoard(const Camera& camera, int views) {
+  const Board board = SixBySixTags();
   const BoardDetector detector(board);
   CameraByBoard found;
   found.input = {PointsOf(board), {}, camera.width_px, camera.height_px};
-  for (int view = 0; view < views; ++view) {
-    const GrayImage image = WithNoise(RenderBoard(board, camera, PoseOf(camera, view)), 2, generator);
-    found.input.views.push_back({std::to_string(view), {}, detector.Detect(image).corners});
-  }
+  for (const GrayImage& image : RenderViewsOfBoard(camera, views))
+    found.input.views.push_back(
+        {std::to_string(found.input.views.size()), {}, detector.Detect(image).corners});
   found.options.lens = camera.lens;
   found.result = CalibrateCamera(found.input, found.options);
   return found;

@@ -1,8 +1,12 @@
 // Images of a board through a given camera, found and calibrated as a laboratory would.
 #pragma once
 
+#include <vector>
+
 #include "calib/board/board_calibration.h"
 #include "core/geometry/camera.h"
+#include "core/session/board.h"
+#include "core/vision/gray_image.h"
 
 namespace legible {
 
@@ -12,8 +16,13 @@ struct CameraByBoard {
   BoardCalibration result;
 };
 
-// Renders `views` images of a board of 6 x 6 tags all over the image, tilted by up to 40 degrees, blur 0.8
-// px, noise 2 grey levels; finds its corners in them; calibrates the lens that the camera has.
+// 6 x 6 tags of tag36h11, 30 mm large and 9 mm apart, ids row by row from the top-left.
+Board SixBySixTags();
+
+// Images of it all over the image, tilted by up to 40 degrees, blur 0.8 px, noise 2 grey levels.
+std::vector<GrayImage> RenderViewsOfBoard(const Camera& camera, int views);
+
+// Finds the corners in these images, and calibrates the lens that the camera has.
 CameraByBoard CalibrateByRenderedBoard(const Camera& camera, int views);
 
 }  // namespace legible

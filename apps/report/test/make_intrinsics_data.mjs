@@ -226,6 +226,7 @@ function crossValidationOf({ difference, expected }) {
     ratio,
     ratio_limit: 1.9,
     misfit,
+    sigma_factor: misfit ? 1.7 : 1,
     sentence: misfit
       ? `The lens model does not fit: cameras from either half of the views differ by ${found.toFixed(2)} px, where noise alone would make ${noise.toFixed(3)} px; try --lens rational`
       : `The lens model fits: cameras from either half of the views differ by ${found.toFixed(3)} px, and noise would make ${noise.toFixed(3)} px`,

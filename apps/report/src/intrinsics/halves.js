@@ -45,6 +45,7 @@ function figures(document) {
       ["What noise would make", figureAt("expected_rms_px"), "the same, by both uncertainties"],
       ["Ratio", figureAt("ratio"), "place by place; 1 where only noise differs"],
       ["Limit of the ratio", figureAt("ratio_limit"), "a model that fits stays below, 999 times in 1000"],
+      ["Factor on every σ", figureAt("sigma_factor"), "beyond what residuals give; 1 where the model fits"],
     ],
     "figures",
   );
