@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calib/board/neighbour_scatter.h"
+#include "core/geometry/camera_parameters.h"
 
 namespace legible {
 namespace {
@@ -101,6 +102,20 @@ void Compare(const Camera& first, const Camera& second, const Eigen::MatrixXd& c
   result.expected_rms_px = std::sqrt(expected / static_cast<double>(weighted.points.size()));
 }
 
+// The Mahalanobis distance of the halves' parameters by their stated covariances, of which its square's
+// expectation is the number of parameters.
+double RatioToStated(const std::vector<BoardCalibration>& halves) {
+  const Eigen::MatrixXd covariance =
+      halves[0].information.CameraCovariance() + halves[1].information.CameraCovariance();
+  const Eigen::Index count = covariance.rows();
+  const Eigen::VectorXd difference =
+      (ParametersOf(halves[0].camera) - ParametersOf(halves[1].camera)).head(count);
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd scaled = scale.asDiagonal() * difference;
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return std::sqrt(scaled.dot(correlation.llt().solve(scaled)) / static_cast<double>(count));
+}
+
 }  // namespace
 
 HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCalibration& whole,
@@ -132,7 +147,7 @@ HalvesComparison CompareHalves(const BoardCalibrationInput& input, const BoardCa
   for (const BoardCalibration& half : found)
     covariance += std::pow(scatter / half.noise_factor, 2) * half.information.CameraCovariance();
   Compare(found[0].camera, found[1].camera, covariance, result);
-  result.ratio_to_stated = result.ratio * scatter / whole.noise_factor;
+  result.ratio_to_stated = RatioToStated(found);
   return result;
 }
 

@@ -23,8 +23,9 @@ struct HalvesComparison {
   double expected_rms_px = 0;                      // by both covariances
   double ratio = 1;  // differences in units of what is expected of each, rms; 1 where the model is right
   double ratio_limit = 1;  // that a right model stays below 999 times in 1000
-  // As `ratio`, in units of what the noise of the whole calibration's residuals lets expect, which a misfit
-  // enlarges.
+  // By how much the halves' parameters differ more than the noise of their own residuals lets expect, which a
+  // misfit enlarges: rms over all directions of the parameters. It counts what a motion of the boards hides
+  // in the image too, for the legs' calibration has the camera's parameters from the board.
   double ratio_to_stated = 1;
   bool HasMisfit() const { return why_not.empty() && ratio > ratio_limit; }
   // By which the sigmas of the whole calibration have to be larger (see Widened) so as not to claim more than
