@@ -1,7 +1,8 @@
 // Real and complex numbers that are known to lie within a radius of a midpoint. Every operation encloses the
 // results of all numbers that its operands may be, rounding included: Arb's ball arithmetic (F. Johansson,
 // Arb: efficient arbitrary-precision midpoint-radius interval arithmetic, IEEE Transactions on Computers 66,
-// 2017), here with midpoints of 64 bits.
+// 2017). Midpoints have 128 bits, as many as Arb keeps without allocating memory: doubles and their products
+// fit exactly, and residuals near multiple roots are still worth something.
 #pragma once
 
 #include <acb.h>
@@ -12,7 +13,7 @@
 
 namespace legible {
 
-inline constexpr int kBallPrecision_bits = 64;
+inline constexpr int kBallPrecision_bits = 128;
 
 class RealBall {
  public:

@@ -25,16 +25,27 @@ bool MakeSymmetric(ComplexBallMatrix& matrix) {
   return is_real;
 }
 
-std::complex<double> Dot(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-  return a.cwiseProduct(b).sum();
+// Bilinear, of vectors of n elements.
+std::complex<double> Dot(const std::complex<double>* a, const std::complex<double>* b, Eigen::Index n) {
+  using Elements = Eigen::Map<const Eigen::VectorXcd>;
+  return Elements(a, n).cwiseProduct(Elements(b, n)).sum();
 }
 
 // With one rounding at the end.
-ComplexBall Dot(const ComplexBallVector& a, const ComplexBallVector& b) {
+ComplexBall Dot(const ComplexBall* a, const ComplexBall* b, Eigen::Index n) {
   static_assert(sizeof(ComplexBall) == sizeof(acb_struct), "Arb reads vectors of balls as its own");
   ComplexBall dot;
-  acb_dot(dot.get(), nullptr, 0, a.data()->get(), 1, b.data()->get(), 1, a.size(), kBallPrecision_bits);
+  acb_dot(dot.get(), nullptr, 0, a->get(), 1, b->get(), 1, n, kBallPrecision_bits);
   return dot;
+}
+
+// Bounds twice the sum of the moduli of what multiplies products of two unknowns; the sum of doubles is
+// rounded by far less than what is added.
+double SecondDerivativeBound(const ComplexBallMatrix& matrix) {
+  double sum = 0;
+  for (Eigen::Index j = 1; j < matrix.cols(); ++j)
+    for (Eigen::Index i = 1; i < matrix.rows(); ++i) sum += LargestModulus(matrix(i, j));
+  return 2 * sum * (1 + 1e-12);
 }
 
 template <typename Scalar>
@@ -52,8 +63,8 @@ QuadricValues<Scalar> EvaluateAt(const std::vector<Matrix<Scalar>>& matrices, co
   QuadricValues<Scalar> result{Vector<Scalar>(n), Matrix<Scalar>(n, n)};
   for (Eigen::Index k = 0; k < n; ++k) {
     for (Eigen::Index i = 0; i <= n; ++i)
-      product[i] = Dot(w, matrices[static_cast<size_t>(k)].col(i));  // its own transpose
-    result.values[k] = Dot(w, product);
+      product[i] = Dot(w.data(), matrices[static_cast<size_t>(k)].col(i).data(), n + 1);  // row i, too
+    result.values[k] = Dot(w.data(), product.data(), n + 1);
     for (Eigen::Index i = 0; i < n; ++i) result.jacobian(k, i) = product[i + 1] + product[i + 1];
   }
   return result;
@@ -69,6 +80,7 @@ QuadricSystem::QuadricSystem(std::vector<ComplexBallMatrix> matrices) : matrices
                                   " quadrics need as many rows and columns and one more");
     if (!MakeSymmetric(matrix)) is_real_ = false;
     midpoints_.push_back(MidpointsOf(matrix));
+    second_derivative_bounds_.push_back(SecondDerivativeBound(matrix));
   }
 }
 

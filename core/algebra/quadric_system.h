@@ -20,11 +20,14 @@ class QuadricSystem {
   Eigen::Index size() const { return static_cast<Eigen::Index>(matrices_.size()); }  // n
   const std::vector<ComplexBallMatrix>& matrices() const { return matrices_; }
   const std::vector<Eigen::MatrixXcd>& midpoints() const { return midpoints_; }
+  // For each quadric a bound of the sum of the moduli of its second derivatives by z.
+  const std::vector<double>& second_derivative_bounds() const { return second_derivative_bounds_; }
   bool is_real() const { return is_real_; }  // every coefficient is exactly real
 
  private:
   std::vector<ComplexBallMatrix> matrices_;
   std::vector<Eigen::MatrixXcd> midpoints_;
+  std::vector<double> second_derivative_bounds_;
   bool is_real_ = true;
 };
 

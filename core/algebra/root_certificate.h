@@ -1,4 +1,4 @@
-// Proofs that systems of quadrics have roots where Newton's method found them: Krawczyk's test with balls.
+// Proofs that systems of quadrics have roots where Newton's method found them: Krawczyk's test, with balls.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/robots/assembly_mode_start.h"
 #include "core/robots/gough_stewart.h"
 
 namespace legible {
@@ -29,5 +30,9 @@ struct GoughStewartAssemblyModes {
 // Throws std::invalid_argument for lengths or joints that are not finite. The first call takes longer: it
 // prepares the paths' starts.
 GoughStewartAssemblyModes AllAssemblyModes(const GoughStewart& robot, const Vector6d& joint_readings_m);
+
+// The same by other paths.
+GoughStewartAssemblyModes AllAssemblyModes(const GoughStewart& robot, const Vector6d& joint_readings_m,
+                                           const AssemblyModeStart& start);
 
 }  // namespace legible
