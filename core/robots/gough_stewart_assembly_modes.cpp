@@ -9,6 +9,7 @@
 
 #include "core/algebra/quadric_system.h"
 #include "core/algebra/root_certificate.h"
+#include "core/robots/assembly_mode_start.h"
 #include "core/robots/study_quadrics.h"
 
 namespace legible {

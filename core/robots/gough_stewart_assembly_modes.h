@@ -3,12 +3,13 @@
 
 #include <vector>
 
-#include "core/robots/assembly_mode_start.h"
 #include "core/robots/gough_stewart.h"
 
 namespace legible {
 
 inline constexpr int kGoughStewartRootCount = 40;  // complex, of a general robot (Ronga and Vust 1995)
+
+struct AssemblyModeStart;
 
 struct AssemblyMode {
   Rigid3 base_from_platform;
@@ -21,7 +22,7 @@ struct GoughStewartAssemblyModes {
   // have multiple roots, or roots at infinity, and are not complete by this count.
   bool is_complete = false;
   int certified = 0;    // complex roots, the real ones included
-  int at_infinity = 0;  // paths on which the platform left for infinity
+  int at_infinity = 0;  // paths on which the platform left for infinity, as far as doubles tell
   int uncertified = 0;  // the others: multiple roots, roots too close to tell, paths that failed
 };
 
@@ -31,7 +32,7 @@ struct GoughStewartAssemblyModes {
 // prepares the paths' starts.
 GoughStewartAssemblyModes AllAssemblyModes(const GoughStewart& robot, const Vector6d& joint_readings_m);
 
-// The same by other paths.
+// The same by paths that start elsewhere (core/robots/assembly_mode_start.h).
 GoughStewartAssemblyModes AllAssemblyModes(const GoughStewart& robot, const Vector6d& joint_readings_m,
                                            const AssemblyModeStart& start);
 
