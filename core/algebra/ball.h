@@ -19,7 +19,8 @@ class RealBall {
  public:
   RealBall() { arb_init(value_); }  // exactly 0
   // Exactly that number; implicit, for Eigen makes its zeros and ones of numbers.
-  RealBall(double exact) : RealBall() { arb_set_d(value_, exact); }  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  RealBall(double exact) : RealBall() { arb_set_d(value_, exact); }
   RealBall(double midpoint, double radius);
   RealBall(const RealBall& other) : RealBall() { arb_set(value_, other.value_); }
   RealBall(RealBall&& other) noexcept : RealBall() { arb_swap(value_, other.value_); }
@@ -90,15 +91,14 @@ double UpperBound(const RealBall& ball);
 class ComplexBall {
  public:
   ComplexBall() { acb_init(value_); }
-  ComplexBall(double exact) : ComplexBall() {
-    acb_set_d(value_, exact);
-  }                                                                 // NOLINT(google-explicit-constructor)
-  ComplexBall(const std::complex<double>& exact) : ComplexBall() {  // NOLINT(google-explicit-constructor)
+  // Exactly that number, or every real number in the ball.
+  // NOLINTBEGIN(google-explicit-constructor)
+  ComplexBall(double exact) : ComplexBall() { acb_set_d(value_, exact); }
+  ComplexBall(const std::complex<double>& exact) : ComplexBall() {
     acb_set_d_d(value_, exact.real(), exact.imag());
   }
-  ComplexBall(const RealBall& real) : ComplexBall() {  // NOLINT(google-explicit-constructor)
-    acb_set_arb(value_, real.get());
-  }
+  ComplexBall(const RealBall& real) : ComplexBall() { acb_set_arb(value_, real.get()); }
+  // NOLINTEND(google-explicit-constructor)
   // Every complex number within the radius of the midpoint, and the corners about them.
   ComplexBall(const std::complex<double>& midpoint, double radius);
   ComplexBall(const ComplexBall& other) : ComplexBall() { acb_set(value_, other.value_); }

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace legible {
@@ -42,7 +43,8 @@ struct KrawczykTest {
   double derivative_slope = 0;  // bounds |T'(z) - T'(z0)| over |z - z0|
 };
 
-// Where the Jacobian is singular Y is not finite, and the modulus of what comes of it infinite: the test fails.
+// Where the Jacobian is singular Y is not finite, and the modulus of what comes of it infinite: the test
+// fails.
 KrawczykTest TestAt(const QuadricSystem& system, const Eigen::VectorXcd& midpoint) {
   const auto at = Evaluate(system, ComplexBallVector(midpoint.cast<ComplexBall>()));
   const Eigen::Index n = system.size();

@@ -1,8 +1,11 @@
 #include "core/algebra/three_quadrics.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
+#include <optional>
 #include <stdexcept>
 
 namespace legible {

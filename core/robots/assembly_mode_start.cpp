@@ -1,6 +1,7 @@
 #include "core/robots/assembly_mode_start.h"
 
 #include <array>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 

@@ -1,11 +1,12 @@
 #include "core/robots/gough_stewart_assembly_modes.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/algebra/quadric_system.h"
 #include "core/algebra/root_certificate.h"

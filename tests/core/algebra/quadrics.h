@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <random>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace legible {
 // Exactly these coefficients.
 inline QuadricSystem ExactSystem(const std::vector<Eigen::MatrixXd>& matrices) {
   std::vector<ComplexBallMatrix> balls;
+  balls.reserve(matrices.size());
   for (const Eigen::MatrixXd& matrix : matrices)
     balls.emplace_back(matrix.cast<RealBall>().cast<ComplexBall>());
   return QuadricSystem(balls);

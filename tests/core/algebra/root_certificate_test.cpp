@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <stdexcept>
 
 #include "tests/core/algebra/quadrics.h"
