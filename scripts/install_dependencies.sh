@@ -13,6 +13,8 @@ ccache               compiles nothing twice
 mold                 links quickly
 libeigen3-dev        vectors and matrices
 libceres-dev         least squares
+libflint-arb-dev     ball arithmetic: what proofs of roots compute with
+libflint-dev         what Arb is built on; tests: exact counts of real roots
 libgoogle-glog-dev   what Ceres logs through
 libopencv-dev        reads images; first pose from tags; finds chessboards and wide-bordered tags
 libapriltag-dev      finds AprilTags

@@ -1,12 +1,16 @@
-// How long the kinematics and the lens model take: every control step and every residual pays for them.
+// How long the kinematics and the lens model take: every control step and every residual pays for them; and
+// how long all assembly modes take, certified.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <numbers>
 #include <random>
+#include <vector>
 
+#include "core/algebra/three_quadrics.h"
 #include "core/geometry/camera.h"
 #include "core/robots/gough_stewart.h"
+#include "core/robots/gough_stewart_assembly_modes.h"
 #include "tests/testing/random.h"
 
 namespace legible {
@@ -62,6 +66,43 @@ void BM_InverseKinematics(benchmark::State& state) {
   while (state.KeepRunning()) benchmark::DoNotOptimize(InverseKinematics(robot, solves[i++ % kCases].guess));
 }
 BENCHMARK(BM_InverseKinematics);
+
+// The hidden 3-UPS robot's equations are such a system, and a pair of a Quattro's legs leaves one.
+void BM_AllRootsOfThreeQuadrics(benchmark::State& state) {
+  std::mt19937_64 generator(1);
+  std::vector<QuadricSystem> systems;
+  for (size_t i = 0; i < kCases; ++i) {
+    std::vector<ComplexBallMatrix> matrices;
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Matrix4d matrix;
+      for (double& coefficient : matrix.reshaped()) coefficient = Uniform(generator, -1, 1);
+      matrices.emplace_back(matrix.cast<RealBall>().cast<ComplexBall>());
+    }
+    systems.emplace_back(matrices);
+  }
+  size_t i = 0;
+  double complete = 0;
+  while (state.KeepRunning()) complete += AllRoots(systems[i++ % kCases]).is_complete ? 1 : 0;
+  state.counters["complete"] = benchmark::Counter(complete, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK(BM_AllRootsOfThreeQuadrics)->Unit(benchmark::kMillisecond);
+
+// Perturbed by nothing, 12 of its 40 paths leave for infinity.
+void BM_AllAssemblyModes(benchmark::State& state, double perturbation_m) {
+  std::mt19937_64 generator(1);
+  const GoughStewart robot = DesktopHexapod(generator, perturbation_m);
+  const std::array<Solve, kCases> solves = RandomSolves(generator, robot);
+  benchmark::DoNotOptimize(
+      AllAssemblyModes(robot, solves[0].joint_readings_m));  // prepares the paths' starts
+  size_t i = 0;
+  double certified = 0;
+  while (state.KeepRunning())
+    certified += AllAssemblyModes(robot, solves[i++ % kCases].joint_readings_m).certified;
+  state.counters["certified"] = benchmark::Counter(certified, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK_CAPTURE(BM_AllAssemblyModes, symmetric, 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_AllAssemblyModes, built, 0.002)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_AllAssemblyModes, general, 0.2)->Unit(benchmark::kMillisecond);
 
 void BM_Undistort(benchmark::State& state, LensModel lens, const Distortion& distortion) {
   std::mt19937_64 generator(1);
