@@ -18,11 +18,16 @@ Eigen::Vector3d JointFromYaml(const YamlValue& section) {
   return joint;
 }
 
+Eigen::Vector3d AxisFromYaml(const YamlValue& section) {
+  const Eigen::Vector3d axis = section.Vector3();
+  if (!(axis.norm() > 0)) section.Fail("has no direction", "give the axis as [x, y, z]");
+  return axis.normalized();
+}
+
 std::array<double, 2> JointRangeFromYaml(const YamlValue& section) {
   const std::vector<double> range = section.Numbers(2);
   if (range[0] >= range[1]) {
-    section.Fail(fmt::format("is [{}, {}], reversed or empty", range[0], range[1]),
-                 "give [shortest, longest]");
+    section.Fail(fmt::format("is [{}, {}], reversed or empty", range[0], range[1]), "give [least, largest]");
   }
   return {range[0], range[1]};
 }

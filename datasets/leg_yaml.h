@@ -11,7 +11,10 @@ namespace legible {
 // A joint's place (m); throws InputError where it is so far away that it must be in millimetres.
 Eigen::Vector3d JointFromYaml(const YamlValue& section);
 
-// [shortest, longest], m.
+// A direction of any length, made a unit vector; throws InputError where it has none.
+Eigen::Vector3d AxisFromYaml(const YamlValue& section);
+
+// [least, largest], m or rad.
 std::array<double, 2> JointRangeFromYaml(const YamlValue& section);
 
 // Throws the InputError of a leg section whose shortest length is not more than its radius.

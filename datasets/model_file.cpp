@@ -82,6 +82,11 @@ bool HoldsRobot(const std::filesystem::path& file) {
   return RecogniseCameraFormat(text) == CameraFormat::kRos && YamlValue::Parse(file, text).Find("robot");
 }
 
+bool HoldsModel(const std::filesystem::path& file) {
+  const std::optional<YamlValue> kind = YamlValue::LoadFile(file).Find("robot");
+  return kind && (kind->IsMap() || (!kind->IsNull() && kind->Text() == "gough-stewart"));
+}
+
 std::string ModelToYaml(const CalibratedModel& model) {
   DemandCovarianceOfNames(model);
   std::string text = "robot:\n" + Indented(RobotToYaml(model.robot));

@@ -18,6 +18,10 @@ CalibratedModel ReadModel(const std::filesystem::path& file);
 // Whether the file is YAML with a "robot", as both are. Throws InputError if it cannot be read.
 bool HoldsRobot(const std::filesystem::path& file);
 
+// Whether the file is one that ReadModel is made for: a model, or the robot.yaml of a Gough-Stewart robot.
+// Throws InputError if it cannot be read.
+bool HoldsModel(const std::filesystem::path& file);
+
 // Writes so that ReadModel gives back the same bits; of the covariance the lower triangle counts. Throws
 // InputError if the file cannot be written and std::invalid_argument if the covariance is not square in the
 // parameter names or a number is not finite.

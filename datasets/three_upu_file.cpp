@@ -10,12 +10,6 @@ namespace {
 
 constexpr char kKind[] = "3-upu";
 
-Eigen::Vector3d AxisFromYaml(const YamlValue& section) {
-  const Eigen::Vector3d axis = section.Vector3();
-  if (!(axis.norm() > 0)) section.Fail("has no direction", "give the axis as [x, y, z]");
-  return axis.normalized();
-}
-
 UpuLeg LegFromYaml(const YamlValue& section) {
   section.AllowKeys(
       {"base_joint_m", "platform_joint_m", "outer_axis", "radius_m", "joint_offset_m", "joint_range_m"});

@@ -71,7 +71,11 @@ inline RealBall operator/(RealBall a, const RealBall& b) { return a /= b; }
 // Certainly equal: both the same number, with radius 0. Eigen's products ask for it.
 inline bool operator==(const RealBall& a, const RealBall& b) { return arb_eq(a.get(), b.get()) != 0; }
 
-RealBall Sqrt(const RealBall& x);  // not a number where x may be negative
+// Certainly greater: every number of the one than every number of the other.
+inline bool operator>(const RealBall& a, const RealBall& b) { return arb_gt(a.get(), b.get()) != 0; }
+
+RealBall Sqrt(const RealBall& x);                            // not a number where x may be negative
+inline RealBall sqrt(const RealBall& x) { return Sqrt(x); }  // for templates of doubles and balls
 RealBall Sin(const RealBall& x);
 RealBall Cos(const RealBall& x);
 

@@ -1,12 +1,15 @@
 // Three numbers for an orientation: rotation vectors, and Euler angles by name.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 
 #include "core/geometry/rigid3.h"
 
 namespace legible {
+
+inline constexpr double kDegree_rad = std::numbers::pi / 180;
 
 // How three numbers (rad) say a rotation. "rotation-vector": axis times angle. Three axis letters: angles
 // about them in turn, of axes that move with the body in capitals ("ZYX": yaw, pitch, roll; R = Rz Ry Rx) and

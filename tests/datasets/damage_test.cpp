@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "datasets/model_file.h"
+#include "datasets/parallel_robot_file.h"
 #include "datasets/session_file.h"
 #include "datasets/tag_file.h"
 #include "tests/datasets/session_fixture.h"
@@ -79,6 +80,11 @@ TEST_F(Damage, OfAModelIsTakenOrNamed) {
   model.provenance = {{"session", "x"}};
   WriteModel(folder_.path() / "model.yaml", model);
   ExpectReadingOrInputError(folder_, "model.yaml", [&] { ReadModel(folder_.path() / "model.yaml"); });
+}
+
+TEST_F(Damage, OfAParallelRobotIsTakenOrNamed) {
+  const auto file = folder_.Write("delta.yaml", Bytes(LEGIBLE_SOURCE_DIR "/datasets/robots/delta.yaml"));
+  ExpectReadingOrInputError(folder_, "delta.yaml", [&] { ReadParallelRobot(file); });
 }
 
 }  // namespace

@@ -95,9 +95,9 @@ TEST(RobotFile, ImpossibleLegsAreRefusedWhereTheyStand) {
       Complaint(file, 5,
                 "legs[2].base_joint_m is 131.5 m from the origin of its frame; give lengths in metres, not "
                 "in millimetres"));
-  EXPECT_EQ(ReadComplaint(folder, "[0.31, 0.5]", "[0.5, 0.31]"),
-            Complaint(file, 6,
-                      "legs[2].joint_range_m is [0.5, 0.31], reversed or empty; give [shortest, longest]"));
+  EXPECT_EQ(
+      ReadComplaint(folder, "[0.31, 0.5]", "[0.5, 0.31]"),
+      Complaint(file, 6, "legs[2].joint_range_m is [0.5, 0.31], reversed or empty; give [least, largest]"));
   EXPECT_EQ(ReadComplaint(folder, "radius_m: 0.012", "raduis_m: 0.012"),
             Complaint(file, 5,
                       "legs[2] has the unknown key \"raduis_m\"; "
