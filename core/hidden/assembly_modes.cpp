@@ -1,0 +1,272 @@
+#include "core/hidden/assembly_modes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "core/hidden/mode_candidates.h"
+#include "core/robots/leg_state.h"
+#include "core/robots/platform_motion.h"
+
+namespace legible {
+namespace {
+
+// A mode's directions agree this well once its pose is polished; candidates are that far off at most before.
+constexpr double kSameDirection = 1e-9;
+constexpr double kNearDirection = 1e-5;
+constexpr double kSamePose = 1e-8;   // m, rad
+constexpr double kLeastSine = 1e-9;  // of two directions that are not parallel
+constexpr int kPolishSteps = 10;
+
+// A seen leg: of both working modes, for the hidden robot's arm turns freely.
+struct SeenLeg {
+  RobotLeg leg;
+  Eigen::Vector3d direction;  // wanted
+};
+
+size_t FewestLegs(PlatformMotion motion) {
+  return motion == PlatformMotion::kPlanar || motion == PlatformMotion::kSpatial ? 3 : 2;
+}
+
+// Why the poses of joints held in these spaces are not solved for; nothing where they are.
+const char* WhyNotSolved(PlatformMotion motion, const std::vector<HeldJoint>& held) {
+  const auto circles =
+      std::count_if(held.begin(), held.end(), [](const HeldJoint& joint) { return joint.space.is_circle; });
+  if (motion == PlatformMotion::kSpatial && circles > 0)
+    return "platforms of six freedoms are solved for where their joints are held on lines alone";
+  if (motion == PlatformMotion::kSchoenflies && circles == 1)
+    return "legs that hold their platform joints on a line and on a circle are not solved for";
+  return nullptr;
+}
+
+// Lines alone, along which the platform translates with its joints on them.
+bool AreParallelLines(const std::vector<HeldJoint>& held) {
+  return std::all_of(held.begin(), held.end(), [&](const HeldJoint& joint) {
+    return !joint.space.is_circle && !held[0].space.is_circle &&
+           joint.space.along.cross(held[0].space.along).norm() < kLeastSine;
+  });
+}
+
+ModeCandidates CandidatesOf(PlatformMotion motion, const std::vector<HeldJoint>& held, const Rigid3& home) {
+  if (const char* why = WhyNotSolved(motion, held)) {
+    ModeCandidates none;
+    none.why = why;
+    return none;
+  }
+  if (AreParallelLines(held)) {
+    ModeCandidates infinite;
+    infinite.is_infinite = true;
+    infinite.why = "the lines along which the seen legs leave the platform free are parallel";
+    return infinite;
+  }
+  switch (motion) {
+    case PlatformMotion::kPlanarPoint:
+      return PlanarPointCandidates(held, home);
+    case PlatformMotion::kPlanar:
+      return PlanarCandidates(held, home);
+    case PlatformMotion::kTranslation:
+      return TranslationCandidates(held, home);
+    case PlatformMotion::kSchoenflies:
+      return SchoenfliesCandidates(held, home);
+    case PlatformMotion::kSpatial:
+      break;
+  }
+  return SpatialCandidates(held, home);
+}
+
+void CheckLegs(const ParallelRobot& robot, const std::vector<int>& legs) {
+  std::set<int> seen;
+  for (const int leg : legs) {
+    if (leg < 0 || leg >= static_cast<int>(robot.legs.size()))
+      throw std::invalid_argument("there is no leg " + std::to_string(leg + 1) + ": the robot has " +
+                                  std::to_string(robot.legs.size()));
+    if (!seen.insert(leg).second)
+      throw std::invalid_argument("leg " + std::to_string(leg + 1) + " is named twice");
+  }
+}
+
+HeldJoint HeldJointOf(const SeenLeg& seen) {
+  return {seen.leg.platform_joint_m, seen.leg.carried_offset_m, VertexSpaceOf(seen.leg, seen.direction)};
+}
+
+// The leg at the pose with the working mode whose direction is nearer to the wanted one.
+struct NearestState {
+  LegState state;
+  bool is_own_mode = true;
+  double error = 0;
+};
+std::optional<NearestState> NearestStateOf(const SeenLeg& seen, const Rigid3& pose) {
+  std::optional<NearestState> nearest;
+  for (const int sign : {1, -1}) {
+    RobotLeg leg = seen.leg;
+    leg.working_mode *= sign;
+    const auto state = StateOf(leg, pose);
+    if (!state) continue;
+    const double error = (state->direction - seen.direction).norm();
+    if (!nearest || error < nearest->error) nearest = NearestState{*state, sign == 1, error};
+  }
+  return nearest;
+}
+
+// Gauss-Newton on the directions, to rounding.
+Rigid3 Polished(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, Rigid3 pose) {
+  for (int step = 0; step < kPolishSteps; ++step) {
+    const auto basis = MotionBasis(robot, pose);
+    const auto rows = static_cast<Eigen::Index>(3 * seen.size());
+    Eigen::MatrixXd interaction(rows, 6);
+    Eigen::VectorXd errors(rows);
+    for (size_t i = 0; i < seen.size(); ++i) {
+      const auto nearest = NearestStateOf(seen[i], pose);
+      if (!nearest) return pose;
+      const auto at = static_cast<Eigen::Index>(3 * i);
+      interaction.middleRows<3>(at) = DirectionInteraction(seen[i].leg, nearest->state, pose);
+      errors.segment<3>(at) = seen[i].direction - nearest->state.direction;
+    }
+    const Eigen::MatrixXd matrix = interaction * basis;
+    const Vector6d twist = basis * matrix.completeOrthogonalDecomposition().solve(errors);
+    pose = Displaced(pose, twist);
+    if (twist.norm() < 1e-15) break;
+  }
+  return pose;
+}
+
+enum class Judged { kMode, kReversed, kOther };
+
+struct JudgedPose {
+  Judged as = Judged::kOther;
+  AssemblyMode mode;
+};
+
+// Largest error of a direction at the pose, and of one whose leg may point the other way.
+JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, const Rigid3& candidate) {
+  JudgedPose judged{Judged::kOther, {candidate, 0, true}};
+  bool is_reversed = false;
+  for (const SeenLeg& leg : seen) {
+    const auto nearest = NearestStateOf(leg, candidate);
+    if (!nearest) return judged;
+    const double against = (nearest->state.direction + leg.direction).norm();
+    is_reversed = is_reversed || against < kNearDirection;
+    if (std::min(nearest->error, against) > kNearDirection) return judged;
+  }
+  if (is_reversed) {
+    judged.as = Judged::kReversed;
+    return judged;
+  }
+  judged.mode.base_from_platform = Polished(robot, seen, candidate);
+  for (const SeenLeg& leg : seen) {
+    const auto nearest = NearestStateOf(leg, judged.mode.base_from_platform);
+    if (!nearest) return judged;
+    judged.mode.largest_direction_error = std::max(judged.mode.largest_direction_error, nearest->error);
+    judged.mode.has_own_working_modes = judged.mode.has_own_working_modes && nearest->is_own_mode;
+  }
+  if (judged.mode.largest_direction_error < kSameDirection) judged.as = Judged::kMode;
+  return judged;
+}
+
+double Distance(const Rigid3& a, const Rigid3& b) { return Displacement(a, b).norm(); }
+
+// The fewest legs whose hidden robot is farthest from a singularity at the pose, as indices into `seen`.
+std::vector<size_t> BestConditioned(const ParallelRobot& robot, const std::vector<SeenLeg>& seen,
+                                    const Rigid3& pose) {
+  const size_t fewest = FewestLegs(robot.motion);
+  const auto basis = MotionBasis(robot, pose);
+  std::vector<bool> is_in(seen.size(), false);
+  std::fill_n(is_in.begin(), fewest, true);
+  std::vector<size_t> best;
+  double best_value = -1;
+  do {
+    std::vector<size_t> chosen;
+    for (size_t i = 0; i < seen.size(); ++i)
+      if (is_in[i]) chosen.push_back(i);
+    Eigen::MatrixXd matrix(3 * fewest, basis.cols());
+    for (size_t k = 0; k < fewest; ++k) {
+      const SeenLeg& leg = seen[chosen[k]];
+      matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
+          DirectionInteraction(leg.leg, *StateOf(leg.leg, pose), pose) * basis;
+    }
+    const double value = matrix.jacobiSvd().singularValues().tail<1>()[0];
+    if (value > best_value) {
+      best_value = value;
+      best = chosen;
+    }
+  } while (std::prev_permutation(is_in.begin(), is_in.end()));
+  return best;
+}
+
+AssemblyModes WithoutModes(AssemblyModesStatus status, std::string why) {
+  AssemblyModes modes;
+  modes.status = status;
+  modes.why = std::move(why);
+  return modes;
+}
+
+void TakeCandidates(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, const Rigid3& pose,
+                    const std::vector<Rigid3>& candidates, AssemblyModes& modes) {
+  for (const Rigid3& candidate : candidates) {
+    const JudgedPose judged = Judge(robot, seen, candidate);
+    if (judged.as == Judged::kReversed) modes.reversed.push_back(candidate);
+    if (judged.as != Judged::kMode) continue;
+    const bool is_known = std::any_of(modes.modes.begin(), modes.modes.end(), [&](const AssemblyMode& known) {
+      return Distance(known.base_from_platform, judged.mode.base_from_platform) < kSamePose;
+    });
+    if (!is_known) modes.modes.push_back(judged.mode);
+  }
+  std::stable_sort(modes.modes.begin(), modes.modes.end(), [&](const AssemblyMode& a, const AssemblyMode& b) {
+    return Distance(pose, a.base_from_platform) < Distance(pose, b.base_from_platform);
+  });
+}
+
+// Legs whose direction tells something of where the platform is; nothing where one does not reach the pose.
+std::optional<std::vector<SeenLeg>> TellingLegs(const ParallelRobot& robot, const std::vector<int>& legs,
+                                                const Rigid3& pose) {
+  std::vector<SeenLeg> seen;
+  for (const int leg : legs) {
+    const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
+    const auto state = StateOf(it, pose);
+    if (!state) return std::nullopt;
+    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg) seen.push_back({it, state->direction});
+  }
+  return seen;
+}
+
+}  // namespace
+
+const char* ToString(AssemblyModesStatus status) {
+  switch (status) {
+    case AssemblyModesStatus::kComplete:
+      return "complete";
+    case AssemblyModesStatus::kIncomplete:
+      return "incomplete";
+    case AssemblyModesStatus::kInfinite:
+      return "infinite";
+    case AssemblyModesStatus::kUnreachable:
+      break;
+  }
+  return "unreachable";
+}
+
+AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
+                              const Rigid3& base_from_platform) {
+  CheckLegs(robot, legs);
+  const auto seen = TellingLegs(robot, legs, base_from_platform);
+  if (!seen) return WithoutModes(AssemblyModesStatus::kUnreachable, "a seen leg does not reach the pose");
+  if (seen->size() < FewestLegs(robot.motion))
+    return WithoutModes(AssemblyModesStatus::kInfinite, "too few directions are seen to hold the platform");
+  std::vector<HeldJoint> held;
+  for (const size_t i : BestConditioned(robot, *seen, base_from_platform))
+    held.push_back(HeldJointOf((*seen)[i]));
+  const ModeCandidates candidates = CandidatesOf(robot.motion, held, robot.home);
+  if (candidates.is_infinite) return WithoutModes(AssemblyModesStatus::kInfinite, candidates.why);
+  AssemblyModes modes;
+  modes.most_possible = candidates.most_possible;
+  modes.status = candidates.is_complete ? AssemblyModesStatus::kComplete : AssemblyModesStatus::kIncomplete;
+  modes.why = candidates.why;
+  std::vector<Rigid3> poses = candidates.poses;
+  poses.push_back(base_from_platform);
+  TakeCandidates(robot, *seen, base_from_platform, poses, modes);
+  return modes;
+}
+
+}  // namespace legible

@@ -1,0 +1,22 @@
+#include "core/hidden/vertex_space.h"
+
+#include <Eigen/Geometry>
+
+namespace legible {
+
+VertexSpace VertexSpaceOf(const RobotLeg& leg, const Eigen::Vector3d& direction) {
+  const SeenSegment segment = SeenSegmentOf(leg.chain);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d rod_end_m = leg.base_joint_m + leg.rod_m * direction;
+  switch (segment.carrier) {
+    case Carrier::kCircle:
+      return {true, rod_end_m, leg.zero_direction, leg.first_axis.cross(leg.zero_direction), leg.arm_m};
+    case Carrier::kLine:
+      return {false, rod_end_m, leg.first_axis, none, 0};
+    case Carrier::kFixed:
+      break;
+  }
+  return {false, leg.base_joint_m, direction, none, 0};
+}
+
+}  // namespace legible

@@ -1,0 +1,210 @@
+#include "core/hidden/assembly_modes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/robots/leg_state.h"
+#include "tests/testing/random.h"
+#include "tests/testing/random_robots.h"
+
+namespace legible {
+namespace {
+
+const std::vector<std::string> kDeltaChains = {"_R-{2-US}", "_R-{2-US}", "_R-{2-US}"};
+const std::vector<std::string> kHexapodChains(6, "U_PS");
+
+// Two directions of a Delta leave its platform on two circles in different planes, which meet where the line
+// common to both planes passes them: at the pose and, if both pass the line there again, once more.
+TEST(AssemblyModes, OfADeltaPairIsThePoseAlone) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 1000; ++n) {
+    const RobotAtPose random = RandomTranslationRobot(generator, kDeltaChains);
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 2}, random.pose);
+    EXPECT_EQ(found.status, AssemblyModesStatus::kComplete);
+    ASSERT_EQ(found.modes.size(), 1);
+    EXPECT_LT(Displacement(found.modes[0].base_from_platform, random.pose).norm(), 1e-9);
+  }
+}
+
+Eigen::Vector3d Mirrored(const Eigen::Vector3d& x) { return {x.x(), -x.y(), x.z()}; }
+
+// Legs that mirror each other in y = 0, at a pose there: both circles pass that plane at the same two points.
+TEST(AssemblyModes, OfAMirroredDeltaPairAreTwo) {
+  std::mt19937_64 generator = TestGenerator();
+  int found_two = 0;
+  for (int n = 0; n < 1000; ++n) {
+    RobotAtPose random = RandomTranslationRobot(generator, {"_R-{2-US}"});
+    random.robot.home.rotation.setIdentity();
+    random.pose = random.robot.home;
+    random.pose.translation.y() = 0;
+    RobotLeg other = random.robot.legs[0];
+    for (Eigen::Vector3d* x :
+         {&other.base_joint_m, &other.zero_direction, &other.platform_joint_m, &other.carried_offset_m})
+      *x = Mirrored(*x);
+    other.first_axis = -Mirrored(other.first_axis);  // an axial vector
+    random.robot.legs.push_back(other);
+    if (!StateOf(random.robot.legs[0], random.pose)) continue;
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 1}, random.pose);
+    EXPECT_EQ(found.status, AssemblyModesStatus::kComplete);
+    ASSERT_EQ(found.modes.size(), 2);
+    EXPECT_NEAR(found.modes[1].base_from_platform.translation.y(), 0, 1e-9);
+    EXPECT_LT(found.modes[1].largest_direction_error, 1e-9);
+    ++found_two;
+  }
+  EXPECT_GT(found_two, 500);
+}
+
+TEST(AssemblyModes, OfThreeUpuPairsIsThePoseAlone) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 200; ++n) {
+    const RobotAtPose random = RandomTranslationRobot(generator, {"U_PU", "U_PU", "_P-{2-US}"});
+    for (const std::vector<int>& legs : {std::vector<int>{0, 1}, {0, 2}, {0, 1, 2}}) {
+      const AssemblyModes found = AssemblyModesOf(random.robot, legs, random.pose);
+      EXPECT_EQ(found.status, AssemblyModesStatus::kComplete);
+      EXPECT_EQ(found.modes.size(), 1);
+    }
+  }
+}
+
+// A leg more takes modes away and adds none.
+TEST(AssemblyModes, OfMoreLegsAreAmongThoseOfFewer) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 50; ++n)
+    for (const RobotAtPose& random :
+         {RandomSpatialRobot(generator, kHexapodChains), RandomSchoenfliesRobot(generator, "_R-{2-US}"),
+          RandomPlanarRobot(generator, {"_RRR", "_RRR", "_RRR", "_RRR"})}) {
+      const std::vector<int> fewer = random.robot.motion == PlatformMotion::kSchoenflies
+                                         ? std::vector<int>{0, 2}
+                                         : std::vector<int>{0, 1, 2};
+      const AssemblyModes few = AssemblyModesOf(random.robot, fewer, random.pose);
+      const AssemblyModes all = AssemblyModesOf(random.robot, AllLegs(random.robot), random.pose);
+      ASSERT_FALSE(all.modes.empty());
+      EXPECT_LT(Displacement(all.modes[0].base_from_platform, random.pose).norm(), 1e-8);
+      EXPECT_LE(all.modes.size(), few.modes.size());
+      for (const AssemblyMode& mode : all.modes)
+        EXPECT_TRUE(std::any_of(few.modes.begin(), few.modes.end(), [&](const AssemblyMode& other) {
+          return Displacement(mode.base_from_platform, other.base_from_platform).norm() < 1e-7;
+        }));
+    }
+}
+
+TEST(AssemblyModes, AreInOrderOfDistanceFromThePose) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 50; ++n) {
+    const RobotAtPose random = RandomSpatialRobot(generator, kHexapodChains);
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 2, 4}, random.pose);
+    const auto distance = [&](const AssemblyMode& mode) {
+      return Displacement(random.pose, mode.base_from_platform).norm();
+    };
+    EXPECT_TRUE(std::is_sorted(found.modes.begin(), found.modes.end(),
+                               [&](const auto& a, const auto& b) { return distance(a) < distance(b); }));
+  }
+}
+
+// At a reversed pose no leg's direction differs from the wanted one but by its sign, and one does differ.
+TEST(AssemblyModes, ReversedPosesHaveALegThatPointsTheOtherWay) {
+  std::mt19937_64 generator = TestGenerator();
+  int reversed = 0;
+  for (int n = 0; n < 100; ++n) {
+    const RobotAtPose random = RandomSpatialRobot(generator, kHexapodChains);
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 2, 4}, random.pose);
+    for (const Rigid3& pose : found.reversed) {
+      double least_cosine = 1;
+      for (const int i : {0, 2, 4}) {
+        const RobotLeg& leg = random.robot.legs[static_cast<size_t>(i)];
+        const Eigen::Vector3d wanted = StateOf(leg, random.pose)->direction;
+        const Eigen::Vector3d there = StateOf(leg, pose).value().direction;
+        EXPECT_LT(there.cross(wanted).norm(), 1e-9);
+        least_cosine = std::min(least_cosine, there.dot(wanted));
+      }
+      EXPECT_LT(least_cosine, -0.99);
+      ++reversed;
+    }
+  }
+  EXPECT_GT(reversed, 0);
+}
+
+TEST(AssemblyModes, AreInfiniteWhereTheDirectionsDoNotHoldThePlatform) {
+  std::mt19937_64 generator = TestGenerator();
+  const auto status = [](const RobotAtPose& random, const std::vector<int>& legs) {
+    return AssemblyModesOf(random.robot, legs, random.pose).status;
+  };
+  const RobotAtPose hexapod = RandomSpatialRobot(generator, kHexapodChains);
+  EXPECT_EQ(status(hexapod, {0, 1}), AssemblyModesStatus::kInfinite);
+  EXPECT_EQ(status(RandomPlanarRobot(generator, {"_RRR", "_RRR", "_PRP"}), {0, 1, 2}),
+            AssemblyModesStatus::kInfinite);
+  const RobotAtPose quattro = RandomSchoenfliesRobot(generator, "_R-{2-US}");
+  EXPECT_EQ(status(quattro, {0, 1}), AssemblyModesStatus::kInfinite);  // both hold the same half
+  EXPECT_EQ(status(quattro, {0, 2}), AssemblyModesStatus::kComplete);
+  RobotAtPose in_line = hexapod;
+  in_line.robot.legs[2].platform_joint_m =
+      2 * in_line.robot.legs[1].platform_joint_m - in_line.robot.legs[0].platform_joint_m;
+  EXPECT_EQ(status(in_line, {0, 1, 2}), AssemblyModesStatus::kInfinite);
+}
+
+RobotAtPose WithParallelRails(RobotAtPose random) {
+  for (RobotLeg& leg : random.robot.legs) leg.first_axis = Eigen::Vector3d::UnitX();
+  return random;
+}
+
+bool IsReached(const RobotAtPose& random) {
+  return std::all_of(random.robot.legs.begin(), random.robot.legs.end(),
+                     [&](const RobotLeg& leg) { return StateOf(leg, random.pose).has_value(); });
+}
+
+TEST(AssemblyModes, OfLegsOnParallelRailsAreInfinite) {
+  std::mt19937_64 generator = TestGenerator();
+  int checked = 0;
+  for (int n = 0; n < 50; ++n)
+    for (const RobotAtPose& random :
+         {WithParallelRails(RandomPlanarRobot(generator, {"_PRR", "_PRR"})),
+          WithParallelRails(RandomPlanarRobot(generator, {"_PRR", "_PRR", "_PRR"})),
+          WithParallelRails(RandomTranslationRobot(generator, {"_P-{2-US}", "_P-{2-US}", "_P-{2-US}"})),
+          WithParallelRails(RandomSchoenfliesRobot(generator, "_P-{2-US}")),
+          WithParallelRails(RandomSpatialRobot(generator, std::vector<std::string>(6, "_PUS")))}) {
+      if (!IsReached(random)) continue;
+      ++checked;
+      EXPECT_EQ(AssemblyModesOf(random.robot, AllLegs(random.robot), random.pose).status,
+                AssemblyModesStatus::kInfinite)
+          << random.robot.name << " of " << random.robot.legs.size();
+    }
+  EXPECT_GT(checked, 20);
+}
+
+TEST(AssemblyModes, AreNotClaimedCompleteWhereTheyAreNotSolvedFor) {
+  std::mt19937_64 generator = TestGenerator();
+  const RobotAtPose rus = RandomSpatialRobot(generator, std::vector<std::string>(6, "_RUS"));
+  RobotAtPose mixed = RandomSchoenfliesRobot(generator, "_R-{2-US}");
+  mixed.robot.legs[3].chain = ChainFromText("_P-{2-US}");
+  while (!StateOf(mixed.robot.legs[3], mixed.pose))
+    mixed.robot.legs[3].first_axis = RandomDirection(generator);
+  for (const auto& [random, legs] : {std::pair{rus, std::vector<int>{0, 1, 2}}, {mixed, {0, 3}}}) {
+    const AssemblyModes found = AssemblyModesOf(random.robot, legs, random.pose);
+    EXPECT_EQ(found.status, AssemblyModesStatus::kIncomplete);
+    EXPECT_THAT(found.why, testing::HasSubstr("solved for"));
+    ASSERT_EQ(found.modes.size(), 1);
+    EXPECT_LT(Displacement(found.modes[0].base_from_platform, random.pose).norm(), 1e-12);
+  }
+}
+
+TEST(AssemblyModes, AreUnreachableWhereASeenLegIs) {
+  std::mt19937_64 generator = TestGenerator();
+  RobotAtPose random = RandomTranslationRobot(generator, kDeltaChains);
+  random.pose.translation.z() -= 5;
+  EXPECT_EQ(AssemblyModesOf(random.robot, {0, 1}, random.pose).status, AssemblyModesStatus::kUnreachable);
+}
+
+TEST(AssemblyModes, RefusesLegsThatAreNotThereOrNamedTwice) {
+  std::mt19937_64 generator = TestGenerator();
+  const RobotAtPose random = RandomTranslationRobot(generator, kDeltaChains);
+  EXPECT_THROW(AssemblyModesOf(random.robot, {0, 3}, random.pose), std::invalid_argument);
+  EXPECT_THROW(AssemblyModesOf(random.robot, {-1, 0}, random.pose), std::invalid_argument);
+  EXPECT_THROW(AssemblyModesOf(random.robot, {1, 1}, random.pose), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace legible
