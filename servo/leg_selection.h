@@ -1,0 +1,63 @@
+// Which legs to watch on the way from one pose to another (Briot et al. 2016, Appendix A.2): every set of
+// legs is judged, what cannot work is discarded with its reason, the rest is ranked and the best one
+// simulated.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/hidden/assembly_modes.h"
+#include "core/hidden/cone_noise.h"
+#include "core/hidden/controllability.h"
+#include "core/hidden/path_certificate.h"
+#include "servo/direction_simulation.h"
+
+namespace legible {
+
+struct LegSelectionOptions {
+  std::vector<std::vector<int>> leg_sets;  // to judge, legs from 0; empty: every set
+  double cone_half_angle_rad = 1e-3;       // by which each seen direction is off at most
+  int path_samples = 33;                   // at which errors and visibility are looked at, ends included
+  DirectionServoOptions servo;
+  // Whether a leg (from 0) shows at a pose; empty: all do everywhere.
+  std::function<bool(int leg, const Rigid3& base_from_platform)> is_visible;
+};
+
+enum class LegSetVerdict {
+  kPossible,   // start and goal are in one aspect
+  kUndecided,  // that could not be proved, and the simulation did not lead to the goal
+  kInvisible,  // a leg does not show all the way
+  kUncontrollable,
+  kOtherAspect,  // proved: no path without a singularity
+  kOutOfReach,   // a leg does not reach start, goal or the way between
+  kMisled,       // in one aspect, but simulated it ends elsewhere
+};
+const char* ToString(LegSetVerdict verdict);
+
+struct JudgedLegSet {
+  std::vector<int> legs;  // from 0
+  LegSetVerdict verdict = LegSetVerdict::kUndecided;
+  std::string why;                  // in words, where not possible
+  Controllability controllability;  // at the goal
+  PathCertificate path;             // of the hidden robot, straight or as it was simulated
+  bool is_path_simulated = false;   // the latter
+  AssemblyModes modes;              // of the hidden robot at the goal
+  std::optional<LargestPoseError> error_at_goal, error_on_path;
+  std::optional<DirectionServoRun> simulated;  // where the verdict needed it, and of the best
+};
+
+struct LegSelection {
+  PathCertificate robot_path;      // the real robot's, straight
+  std::vector<JudgedLegSet> sets;  // possible ones first, best first
+  bool has_choice = false;         // the first one is possible, and was simulated
+};
+
+// Ranked by the largest displacement of a platform joint by cone noise (position plus rotation by the
+// platform's radius) at the goal, then on the way. `is_done(judged, of)` is told of progress.
+LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to,
+                        const LegSelectionOptions& options,
+                        const std::function<void(int judged, int of)>& progress = {});
+
+}  // namespace legible
