@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "apps/index_definitions.h"
 #include "apps/json_text.h"
 #include "apps/program.h"
+#include "core/geometry/orientation.h"
 
 namespace legible {
 namespace {
@@ -16,7 +16,6 @@ using nlohmann::json;
 
 // Maps are always in millimetres and degrees.
 constexpr double kMillimetre_m = 1e-3;
-constexpr double kDegree_rad = std::numbers::pi / 180;
 double MapUnit(int coordinate) { return coordinate < 3 ? kMillimetre_m : kDegree_rad; }
 const char* MapUnitName(int coordinate) { return coordinate < 3 ? "mm" : "deg"; }
 

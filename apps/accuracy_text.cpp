@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/index_definitions.h"
+#include "apps/text_table.h"
 
 namespace legible {
 namespace {
@@ -47,37 +48,10 @@ const ordered_json& At(const ordered_json& json, const std::vector<std::string>&
 
 // --- Tables.
 
-using Row = std::vector<std::string>;
-
-// Characters of UTF-8 text.
-size_t Width(const std::string& text) {
-  return static_cast<size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-// First column to the left, the others to the right.
-std::string Aligned(const std::vector<Row>& rows) {
-  std::vector<size_t> widths;
-  for (const Row& row : rows)
-    for (size_t i = 0; i < row.size(); ++i) {
-      widths.resize(std::max(widths.size(), i + 1));
-      widths[i] = std::max(widths[i], Width(row[i]));
-    }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = "  ";
-    for (size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - Width(row[i]), ' ');
-      line += (i == 0 ? row[i] + blanks : "  " + blanks + row[i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
+using Row = TableRow;
 
 std::string Section(const std::string& title, const std::vector<Row>& rows) {
-  return rows.size() < 2 ? "" : "\n" + title + "\n" + Aligned(rows);
+  return rows.size() < 2 ? "" : "\n" + title + "\n" + AlignedTable(rows);
 }
 
 std::string ErrorTable(const ordered_json& document) {
@@ -209,7 +183,7 @@ std::string WorkspaceTable(const ordered_json& document) {
     rows.push_back(std::move(row));
   }
   std::string text = fmt::format("\nOver the workspace {}\n", workspace.at("over").get<std::string>());
-  if (rows.size() > 1) text += Aligned(rows);
+  if (rows.size() > 1) text += AlignedTable(rows);
   text += fmt::format("  {} samples ({}), {} of the box allowed; {}\n", workspace.at("samples").get<size_t>(),
                       workspace.at("rule").get<std::string>(), PlusMinus(workspace.at("allowed_fraction")),
                       workspace.at("certainty").get<std::string>());

@@ -8,6 +8,7 @@
 #include "apps/capture_command.h"
 #include "apps/convert_command.h"
 #include "apps/intrinsics_command.h"
+#include "apps/legs_command.h"
 #include "apps/replay_command.h"
 #include "apps/servo_command.h"
 #include "apps/simulate_command.h"
@@ -54,6 +55,8 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   const CLI::App* calibrate_command = AddCalibrateCommand(app, calibrate);
   AccuracySettings accuracy;
   const CLI::App* accuracy_command = AddAccuracyCommand(app, accuracy);
+  LegsSettings legs;
+  const CLI::App* legs_command = AddLegsCommand(app, legs);
   ServoSettings servo;
   const CLI::App* servo_command = AddServoCommand(app, servo);
   ReplaySettings replay;
@@ -75,6 +78,7 @@ int ParseAndRun(CLI::App& app, std::vector<std::string> arguments, const Console
   if (intrinsics_command->parsed()) return RunIntrinsics(intrinsics, console);
   if (calibrate_command->parsed()) return RunCalibrate(calibrate, console);
   if (accuracy_command->parsed()) return RunAccuracy(accuracy, console);
+  if (legs_command->parsed()) return RunLegs(legs, console);
   if (capture_command->parsed()) return RunCapture(capture, console);
   if (simulate_command->parsed()) return RunSimulate(simulate, console);
   if (convert_command->parsed()) return RunConvert(convert, console);

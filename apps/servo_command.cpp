@@ -12,6 +12,7 @@
 #include "apps/servo_json.h"
 #include "apps/servo_report.h"
 #include "apps/servo_run.h"
+#include "apps/watched_legs.h"
 #include "apps/wording.h"
 #include "datasets/atomic_file.h"
 #include "datasets/input_error.h"
@@ -99,8 +100,10 @@ int RunServoCommand(const ServoSettings& settings, OpenedRig rig, const Console&
   PreparedServo prepared = PrepareServo(settings, std::move(rig));
   for (const std::filesystem::path& unfinished : UnfinishedLogs(settings.log))
     prepared.warnings.push_back(UnfinishedText(unfinished));
-  const std::filesystem::path folder = MakeNumberedFolder(settings.log, kUnfinishedLog);
   ProgressLine progress(console);
+  SettleWatchedLegs(prepared, progress);
+  console.err << WarningsText(prepared.warnings);  // before anything moves
+  const std::filesystem::path folder = MakeNumberedFolder(settings.log, kUnfinishedLog);
   Servoed servoed;
   try {
     servoed = ServoAndWrite(prepared, folder, progress);
@@ -111,7 +114,6 @@ int RunServoCommand(const ServoSettings& settings, OpenedRig rig, const Console&
     return kExitNoResult;
   }
   progress.Clear();
-  console.err << WarningsText(prepared.warnings);
   const ServoRun& run = servoed.finished.run;
   const bool has_converged = run.end == ServoEnd::kConverged;
   if (settings.prints_json)

@@ -88,12 +88,16 @@ void AddLawOptions(CLI::App& command, ServoSettings& settings) {
       "Where the interaction matrices have the legs'\ndirections from: both edges of each leg, as Andreff "
       "et\nal. do, or joint readings by the model; model without it");
   AddText(
-      command, "--legs", "N,N,...",
-      [&law](const std::string& text) {
+      command, "--legs", "N,N,...|auto",
+      [&settings, &law](const std::string& text) {
+        settings.chooses_legs = text == "auto";
+        if (settings.chooses_legs) return;
         law.legs.reset();
         for (const int leg : ParseLegs(text)) law.legs.set(static_cast<size_t>(leg));
       },
-      "Legs that are looked at, counted from 1; all without it");
+      "Legs that are looked at, counted from 1; auto: those\nthat lead to the goal most accurately, as "
+      "`legible "
+      "legs`\nfinds them; all without it");
   command.add_flag_callback(
       "--unweighted", [&law] { law.is_weighted = false; },
       "All edges count alike, not each by its covariance");

@@ -22,6 +22,7 @@ struct ServoSettings {
   std::string rig;                              // "sim:TRUTH"
   GoalSetting goal;
   ServoOptions options;
+  bool chooses_legs = false;  // those of options are replaced by the best for the way
   double period_s = 0.02;
   bool is_image_free = false;  // edges of a simulated rig without images
   std::filesystem::path log = "servo";

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "apps/servo_log.h"
+#include "core/hidden/assembly_modes.h"
 #include "core/rig/scene_camera.h"
+#include "core/robots/mechanism.h"
 #include "datasets/camera_file.h"
 #include "datasets/model_file.h"
 #include "datasets/robot_file.h"
@@ -79,6 +82,31 @@ class ServoCommand : public testing::Test {
   json Result() const { return json::parse(Bytes(folder_.path() / "log" / "result.json")); }
   ProgramRun Replay() const { return RunLegible({"replay", Path("log")}); }
 
+  // A goal, as the command takes it, that legs 1, 2 and 3 share with another pose within the joint ranges,
+  // and that.
+  std::pair<std::string, std::optional<Rigid3>> GoalWithAnotherMode() const {
+    const GoughStewart& robot = session_.true_robot;
+    const ParallelRobot general = ParallelRobotOf(robot);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < 5000; ++i) {
+      Vector6d step;
+      for (double& coordinate : step) coordinate = uniform(random);
+      step.head<3>() *= 0.05;
+      step.tail<3>() *= 0.5;
+      const Rigid3 goal = Displaced(robot.home, step);
+      if (!IsReachable(robot, goal)) continue;
+      for (const AssemblyMode& mode : AssemblyModesOf(general, {0, 1, 2}, goal).modes) {
+        if (Displacement(goal, mode.base_from_platform).norm() < 1e-3) continue;
+        if (!IsReachable(robot, mode.base_from_platform)) continue;
+        const Eigen::Vector3d w = VectorFromRotation(goal.rotation), &t = goal.translation;
+        return {fmt::format("{} {} {} {} {} {}", t.x(), t.y(), t.z(), w.x(), w.y(), w.z()),
+                mode.base_from_platform};
+      }
+    }
+    return {};
+  }
+
   void ExpectReplaysBitForBit() const {
     const ProgramRun run = Replay();
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
@@ -143,6 +171,24 @@ TEST_F(ServoCommand, LooksAtTheLegsThatItIsToldOnly) {
   ServoImageFree({"--legs", "1,2,3,5", "--least-conditioning", "1e-5"});
   EXPECT_EQ(Result()["legs"], json({1, 2, 3, 5}));
   ExpectReplaysBitForBit();
+}
+
+TEST_F(ServoCommand, ChoosesLegsThatLeadToTheGoal) {
+  const ProgramRun run = ServoImageFree({"--legs", "auto"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_GE(Result()["legs"].size(), 3U);
+  EXPECT_EQ(Result()["status"], "converged");
+  ExpectReplaysBitForBit();
+}
+
+// A goal at which legs 1, 2, 3 point as they do at another pose within the joint ranges, found by search.
+TEST_F(ServoCommand, WarnsBeforeItMovesOfEveryPoseThatItMayEndInInstead) {
+  const auto [goal, other] = GoalWithAnotherMode();
+  ASSERT_TRUE(other.has_value());
+  const ProgramRun run = Servo({"--image-free", "--legs", "1,2,3", "--timeout", "0.2", "--goal-pose", goal});
+  EXPECT_THAT(run.err, StartsWith("legible: warning: legs 1,2,3 point as they do at the goal at ("));
+  EXPECT_THAT(run.err, HasSubstr("the servo may end there"));
 }
 
 TEST_F(ServoCommand, StopsForAFaultSaysWhyAndReplaysThatToo) {

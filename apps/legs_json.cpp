@@ -1,0 +1,154 @@
+#include "apps/legs_json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/json_text.h"
+#include "apps/wording.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* ToString(PlatformMotion motion) {
+  switch (motion) {
+    case PlatformMotion::kPlanarPoint:
+      return "planar-point";
+    case PlatformMotion::kPlanar:
+      return "planar";
+    case PlatformMotion::kTranslation:
+      return "translation";
+    case PlatformMotion::kSchoenflies:
+      return "schoenflies";
+    case PlatformMotion::kSpatial:
+      break;
+  }
+  return "spatial";
+}
+
+ordered_json PoseJson(const Rigid3& pose) {
+  return {{"rotation_xyzw", List(pose.rotation.coeffs())}, {"translation_m", List(pose.translation)}};
+}
+
+std::vector<int> FromOne(std::vector<int> legs) {
+  for (int& leg : legs) ++leg;
+  return legs;
+}
+
+ordered_json ChainsJson(const ParallelRobot& robot) {
+  ordered_json legs = ordered_json::array();
+  for (size_t i = 0; i < robot.legs.size(); ++i) {
+    const HiddenLeg hidden = HiddenLegOf(robot.legs[i].chain, robot.motion);
+    ordered_json leg = {{"leg", i + 1}, {"chain", legible::ToText(robot.legs[i].chain)}};
+    leg["hidden_chain"] = hidden.chain.empty() ? ordered_json() : ordered_json(legible::ToText(hidden.chain));
+    leg["why_not_controllable"] =
+        hidden.why_not_controllable.empty() ? ordered_json() : ordered_json(hidden.why_not_controllable);
+    legs.push_back(leg);
+  }
+  return legs;
+}
+
+ordered_json PathJson(const PathCertificate& path) {
+  return {{"verdict", ToString(path.verdict)},
+          {"pieces", path.pieces},
+          {"free_up_to", path.at},
+          {"pose_there", PoseJson(path.pose)},
+          {"why", path.why}};
+}
+
+ordered_json ControllabilityJson(const Controllability& it) {
+  ordered_json twists = ordered_json::array();
+  for (const auto& twist : it.unseen_twists.colwise()) twists.push_back(List(twist));
+  return {{"status", ToString(it.status)},
+          {"freedoms", it.freedoms},
+          {"seen_freedoms", it.seen_freedoms},
+          {"unseen_twists", twists},
+          {"why", it.why}};
+}
+
+ordered_json ModesJson(const AssemblyModes& modes, const Rigid3& goal) {
+  ordered_json list = ordered_json::array();
+  for (const AssemblyMode& mode : modes.modes) {
+    const Vector6d from_goal = Displacement(goal, mode.base_from_platform);
+    list.push_back({{"base_from_platform", PoseJson(mode.base_from_platform)},
+                    {"position_from_goal_m", from_goal.head<3>().norm()},
+                    {"rotation_from_goal_rad", from_goal.tail<3>().norm()},
+                    {"has_own_working_modes", mode.has_own_working_modes},
+                    {"largest_direction_error", mode.largest_direction_error}});
+  }
+  return {{"status", ToString(modes.status)},
+          {"most_possible", modes.most_possible},
+          {"why", modes.why},
+          {"modes", list},
+          {"with_a_reversed_leg", modes.reversed.size()}};
+}
+
+ordered_json ErrorJson(const std::optional<LargestPoseError>& error) {
+  if (!error) return {};
+  return {{"position_m", error->position_m}, {"rotation_rad", error->rotation_rad}};
+}
+
+ordered_json SimulationJson(const std::optional<DirectionServoRun>& run, const Rigid3& goal) {
+  if (!run) return {};
+  const DirectionServoSample& last = run->samples.back();
+  const Vector6d from_goal = Displacement(goal, last.base_from_platform);
+  return {{"end", ToString(run->end)},
+          {"time_s", last.time_s},
+          {"base_from_platform", PoseJson(last.base_from_platform)},
+          {"position_from_goal_m", from_goal.head<3>().norm()},
+          {"rotation_from_goal_rad", from_goal.tail<3>().norm()},
+          {"largest_direction_error_rad", *std::max_element(last.errors_rad.begin(), last.errors_rad.end())}};
+}
+
+ordered_json SetJson(const JudgedLegSet& set, const Controllability& by_lines, const Rigid3& goal) {
+  ordered_json path = PathJson(set.path);
+  path["is_the_simulated_way"] = set.is_path_simulated;
+  return {{"legs", FromOne(set.legs)},
+          {"verdict", ToString(set.verdict)},
+          {"why", set.why},
+          {"controllability", ControllabilityJson(set.controllability)},
+          {"by_lines", ControllabilityJson(by_lines)},
+          {"path", path},
+          {"assembly_modes", ModesJson(set.modes, goal)},
+          {"largest_error_at_goal", ErrorJson(set.error_at_goal)},
+          {"largest_error_on_path", ErrorJson(set.error_on_path)},
+          {"simulation", SimulationJson(set.simulated, goal)}};
+}
+
+std::vector<std::string> Warnings(const LegsRun& run) {
+  std::vector<std::string> warnings;
+  if (run.selection.robot_path.verdict != PathVerdict::kFree)
+    warnings.push_back(fmt::format("the straight way of the robot itself, all joints held: {}",
+                                   run.selection.robot_path.why));
+  if (!run.selection.has_choice) return warnings;
+  const JudgedLegSet& best = run.selection.sets.front();
+  if (best.modes.status != AssemblyModesStatus::kComplete)
+    warnings.push_back(fmt::format("the assembly modes of legs {} may not be all: {}",
+                                   fmt::join(FromOne(best.legs), ","), best.modes.why));
+  return warnings;
+}
+
+}  // namespace
+
+ordered_json LegsJson(const LegsRun& run) {
+  ordered_json sets = ordered_json::array();
+  for (size_t i = 0; i < run.selection.sets.size(); ++i)
+    sets.push_back(SetJson(run.selection.sets[i], run.by_lines[i], run.to));
+  return {{"robot", run.robot.name},
+          {"platform", ToString(run.robot.motion)},
+          {"from", PoseJson(run.from)},
+          {"to", PoseJson(run.to)},
+          {"noise_rad", run.settings.noise_rad},
+          {"legs", ChainsJson(run.robot)},
+          {"robot_path", PathJson(run.selection.robot_path)},
+          {"sets", sets},
+          {"choice", run.selection.has_choice ? ordered_json(FromOne(run.selection.sets.front().legs))
+                                              : ordered_json()},
+          {"warnings", Warnings(run)}};
+}
+
+}  // namespace legible

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/legs_command.h"
+#include "apps/option_checks.h"
+#include "apps/option_values.h"
+#include "core/geometry/orientation.h"
+
+namespace legible {
+namespace {
+
+constexpr char kDescription[] = "Say which legs to watch on a way, and what a servo may end in instead";
+constexpr char kFooter[] =
+    R"(A servo of leg directions controls a robot hidden in its law (Briot et al. 2016): that whose actuated joints are the
+directions of the seen legs. It has assembly modes and singularities of its own. For every set of legs:
+
+  hidden robot    its legs, and whether the directions of the set hold the platform at all; if not, whether the lines
+                  themselves (their edges: direction and position) do
+  other modes     every pose other than the goal at which all seen legs point as they do there, proved to be all
+  aspect          whether a singularity lies between start and goal, proved along the whole straight way, or along the
+                  servo's own where the straight one passes a singularity
+  largest error   of the platform at the goal and on the way, when each seen direction is off by up to --noise
+
+The best set is simulated to the goal, and the next one taken if it does not get there.
+
+MODEL is a model.yaml, whose camera says which legs show, or a robot.yaml of any family.
+
+Exit codes:
+  0  some set of legs leads to the goal
+  1  none does; says why
+  2  bad usage or bad input, a pose that the robot cannot take; one line says what; nothing is written
+
+Examples:
+  legible legs datasets/robots/quattro.yaml --from "0 0 -0.75 0 0 0" --to "-0.2 0 -0.56 0 0 0"
+  legible legs result/model.yaml --to "0.02 0.01 0.33 0 0 0.6" --noise 0.05
+  legible legs datasets/robots/quattro.yaml --to "-0.2 0 -0.56 0 0 0" --legs 1,4 --legs 2,3 --format json)";
+
+void AddPose(CLI::App& command, const std::string& name, std::optional<Vector6d>& pose,
+             const std::string& description) {
+  AddText(
+      command, name, "\"X Y Z RX RY RZ\"", [&pose](const std::string& text) { pose = ParsePose(text); },
+      description);
+}
+
+}  // namespace
+
+const CLI::App* AddLegsCommand(CLI::App& program, LegsSettings& settings) {
+  CLI::App* command = program.add_subcommand("legs", kDescription)->group("Commands");
+  command->footer(kFooter);
+  command->add_option("MODEL", settings.model, "The robot: a model.yaml or a robot.yaml")
+      ->required()
+      ->type_name("");
+  AddPose(*command, "--from", settings.from,
+          "Pose of the platform at the start, m and rad; the\nrobot's home without it");
+  AddPose(*command, "--to", settings.to, "Pose at the goal; the robot's home without it");
+  AddText(
+      *command, "--legs", "N,N,...",
+      [&settings](const std::string& text) { settings.leg_sets.push_back(ParseLegs(text)); },
+      "A set of legs to judge; may be repeated; every set\nwithout it")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->trigger_on_parse();
+  AddText(
+      *command, "--noise", "DEG",
+      [&settings](const std::string& text) { settings.noise_rad = ParsePositive(text) * kDegree_rad; },
+      fmt::format("By how much each seen direction may be off, degrees;\n{:.3g} without it",
+                  settings.noise_rad / kDegree_rad));
+  AddText(
+      *command, "--gain", "PER_S",
+      [&settings](const std::string& text) { settings.gain_per_s = ParsePositive(text); },
+      fmt::format("Of the simulated servo; {:g} without it", settings.gain_per_s));
+  AddTableOrJson(*command, settings.prints_json, "A table to read, or all numbers as JSON");
+  command->add_option("--out", settings.out, "File for it; standard output without it")
+      ->check([](const std::string& text) { return text.empty() ? "name a file" : std::string(); })
+      ->type_name("FILE");
+  return command;
+}
+
+}  // namespace legible

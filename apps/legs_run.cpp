@@ -1,0 +1,85 @@
+#include "apps/legs_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/leg_visibility.h"
+#include "core/robots/leg_state.h"
+#include "core/robots/platform_motion.h"
+#include "datasets/input_error.h"
+#include "datasets/model_file.h"
+#include "datasets/parallel_robot_file.h"
+
+namespace legible {
+namespace {
+
+Rigid3 PoseOf(const std::optional<Vector6d>& pose, const Rigid3& home) {
+  if (!pose) return home;
+  return {RotationFromVector(pose->tail<3>()), pose->head<3>()};
+}
+
+void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, const Rigid3& pose,
+                     const char* option) {
+  if (!CanTake(robot, pose))
+    throw InputError(settings.model, 0, fmt::format("has a platform that cannot take the pose of {}", option),
+                     "give it no motion that the platform does not have");
+  for (size_t i = 0; i < robot.legs.size(); ++i) {
+    const auto state = StateOf(robot.legs[i], pose);
+    const auto& range = robot.legs[i].joint_range;
+    if (!state)
+      throw InputError(settings.model, 0,
+                       fmt::format("has a leg {} that does not reach the pose of {}", i + 1, option),
+                       "give a pose within reach");
+    if (range && (state->reading < (*range)[0] || state->reading > (*range)[1]))
+      throw InputError(
+          settings.model, 0,
+          fmt::format("has a leg {} that would read {:.4g} at the pose of {}, beyond its range of {:.4g} to "
+                      "{:.4g}",
+                      i + 1, state->reading, option, (*range)[0], (*range)[1]),
+          "give a pose within reach");
+  }
+}
+
+void DemandLegs(const LegsSettings& settings, const ParallelRobot& robot) {
+  for (const std::vector<int>& legs : settings.leg_sets)
+    for (const int leg : legs)
+      if (leg >= static_cast<int>(robot.legs.size()))
+        throw InputError(settings.model, 0,
+                         fmt::format("has {} legs, and no leg {}", robot.legs.size(), leg + 1),
+                         "name others with --legs");
+}
+
+// Of a model with a camera; else all legs show everywhere.
+std::function<bool(int, const Rigid3&)> VisibilityByModel(const std::filesystem::path& file,
+                                                          const ParallelRobot& robot) {
+  if (!HoldsModel(file)) return {};
+  const CalibratedModel model = ReadModel(file);
+  if (!model.camera || !model.camera_from_base) return {};
+  return VisibilityOfLegs(robot, *model.camera, *model.camera_from_base);
+}
+
+}  // namespace
+
+LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
+  LegsRun run;
+  run.settings = settings;
+  run.robot = ReadParallelRobot(settings.model);
+  run.from = PoseOf(settings.from, run.robot.home);
+  run.to = PoseOf(settings.to, run.robot.home);
+  DemandLegs(settings, run.robot);
+  DemandReachable(settings, run.robot, run.from, "--from");
+  DemandReachable(settings, run.robot, run.to, "--to");
+  LegSelectionOptions options;
+  options.leg_sets = settings.leg_sets;
+  options.cone_half_angle_rad = settings.noise_rad;
+  options.servo.gain_per_s = settings.gain_per_s;
+  options.is_visible = VisibilityByModel(settings.model, run.robot);
+  run.selection = SelectLegs(run.robot, run.from, run.to, options, [&](int judged, int of) {
+    progress.Show(StageText("judging sets of legs", judged, of));
+  });
+  for (const JudgedLegSet& set : run.selection.sets)
+    run.by_lines.push_back(ControllabilityOf(run.robot, set.legs, run.to, SeenFeature::kLines));
+  return run;
+}
+
+}  // namespace legible

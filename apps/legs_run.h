@@ -1,0 +1,26 @@
+// The work of `legible legs`, from files to judgement.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/legs_settings.h"
+#include "apps/progress.h"
+#include "core/hidden/hidden_leg.h"
+#include "servo/leg_selection.h"
+
+namespace legible {
+
+struct LegsRun {
+  LegsSettings settings;
+  ParallelRobot robot;
+  Rigid3 from, to;
+  LegSelection selection;
+  // Of each judged set, whether its lines (edges) hold the platform at the goal.
+  std::vector<Controllability> by_lines;
+};
+
+// Throws InputError.
+LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress);
+
+}  // namespace legible

@@ -1,0 +1,116 @@
+// `legible legs`, run as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "datasets/model_file.h"
+#include "datasets/synthetic_session.h"
+#include "tests/apps/program_fixture.h"
+
+namespace legible {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kRobots = std::string(LEGIBLE_SOURCE_DIR) + "/datasets/robots/";
+const std::string kQuattro = kRobots + "quattro.yaml";
+const std::string kStart = "0 0 -0.75 0 0 0", kGoal = "-0.2 0 -0.56 0 0 0";
+
+ProgramRun Legs(std::vector<std::string> options) {
+  options.insert(options.begin(), "legs");
+  return RunLegible(options);
+}
+
+json Document(std::vector<std::string> options) {
+  options.insert(options.end(), {"--format", "json"});
+  const ProgramRun run = Legs(options);
+  EXPECT_NE(run.exit_code, kExitBadInput) << run.err;
+  return json::parse(run.out);
+}
+
+json SetOf(const json& document, const std::vector<int>& legs) {
+  for (const json& set : document.at("sets"))
+    if (set.at("legs") == legs) return set;
+  ADD_FAILURE() << "no such set";
+  return {};
+}
+
+// Briot et al. (2016), section 5.1.3: legs {1, 4} lead the Quattro to (-0.2, 0, -0.909), {2, 3} to the goal.
+TEST(LegsCommand, SaysOfTheQuattroWhatThePaperFound) {
+  const json document = Document({kQuattro, "--from", kStart, "--to", kGoal});
+  const json misled = SetOf(document, {1, 4}), good = SetOf(document, {2, 3});
+  EXPECT_EQ(misled["verdict"], "other-aspect");
+  EXPECT_EQ(good["verdict"], "possible");
+  EXPECT_EQ(good["path"]["verdict"], "free");
+  for (const json& set : {misled, good}) {
+    EXPECT_EQ(set["assembly_modes"]["status"], "complete");
+    EXPECT_EQ(set["assembly_modes"]["modes"].size(), 4U);
+  }
+  const json position = misled["assembly_modes"]["modes"][1]["base_from_platform"]["translation_m"];
+  EXPECT_NEAR(position[0].get<double>(), -0.2, 0.002);
+  EXPECT_NEAR(position[2].get<double>(), -0.909, 0.002);
+  EXPECT_EQ(SetOf(document, {1, 2})["verdict"], "uncontrollable");
+  EXPECT_EQ(document["legs"][0]["hidden_chain"], "Π-_{2-UU}");
+  EXPECT_EQ(document["sets"][0]["legs"], document["choice"]);
+  EXPECT_LT(document["sets"][0]["simulation"]["position_from_goal_m"].get<double>(), 1e-4);
+}
+
+TEST(LegsCommand, JudgesTheSetsThatItIsAskedFor) {
+  const json document = Document({kQuattro, "--to", kGoal, "--legs", "1,4", "--legs", "2,3"});
+  EXPECT_EQ(document["sets"].size(), 2U);
+}
+
+TEST(LegsCommand, PrintsATableForPeople) {
+  const ProgramRun run = Legs({kQuattro, "--from", kStart, "--to", kGoal});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  for (const char* words :
+       {"other-aspect", "largest error at goal", "Watch legs ", "Where else the seen legs point"})
+    EXPECT_THAT(run.out, HasSubstr(words));
+}
+
+// Section 4.3: parallel P joints cannot be controlled by directions; lines show the motion along them.
+TEST(LegsCommand, EndsWithoutAChoiceWhereNoSetCanBeControlledAndSaysWhy) {
+  const ProgramRun run = Legs({kRobots + "prrrp-parallel.yaml", "--format", "json"});
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_EQ(run.err, "legible: no set of legs leads to the goal\n");
+  const json both = SetOf(json::parse(run.out), {1, 2});
+  EXPECT_THAT(both["why"].get<std::string>(), HasSubstr("rails of the P joints are parallel"));
+  EXPECT_EQ(both["by_lines"]["status"], "controllable");
+}
+
+TEST(LegsCommand, LeavesOutLegsThatTheModelsCameraDoesNotSee) {
+  const TemporaryFolder folder;
+  CalibratedModel model;
+  model.robot = DesktopHexapod();
+  model.camera = DesktopCamera(false);
+  model.camera_from_base = LookAt({0.94, 0.074, 0.285}, {0, 5, 0.13});  // past the robot
+  WriteModel(folder.path() / "model.yaml", model);
+  const json document = Document({(folder.path() / "model.yaml").string(), "--legs", "1,3,5"});
+  EXPECT_EQ(document["sets"][0]["verdict"], "invisible");
+}
+
+TEST(LegsCommand, RefusesBadInputInOneLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{kRobots + "nothing.yaml"}, "nothing.yaml"},
+      {{kQuattro, "--to", "1 2 3"}, "six"},
+      {{kQuattro, "--to", "0 0 -0.7 0.1 0 0"}, "cannot take the pose of --to"},
+      {{kQuattro, "--from", "0 0 -3 0 0 0"}, "does not reach the pose of --from"},
+      {{kQuattro, "--legs", "1,5"}, "no leg 5"},
+      {{kQuattro, "--noise", "0"}, "not more than 0"},
+      {{kQuattro, "--format", "yaml"}, "--format"}};
+  for (const auto& [options, words] : cases) {
+    const ProgramRun run = Legs(options);
+    EXPECT_EQ(run.exit_code, kExitBadInput) << testing::PrintToString(options);
+    EXPECT_THAT(run.err, AllOf(StartsWith("legible: "), HasSubstr(words)));
+    EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << "not one line: " << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace legible
