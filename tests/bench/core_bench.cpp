@@ -9,9 +9,11 @@
 
 #include "core/algebra/three_quadrics.h"
 #include "core/geometry/camera.h"
+#include "core/hidden/assembly_modes.h"
 #include "core/robots/gough_stewart.h"
 #include "core/robots/gough_stewart_assembly_modes.h"
 #include "tests/testing/random.h"
+#include "tests/testing/random_robots.h"
 
 namespace legible {
 namespace {
@@ -86,6 +88,34 @@ void BM_AllRootsOfThreeQuadrics(benchmark::State& state) {
   state.counters["complete"] = benchmark::Counter(complete, benchmark::Counter::kAvgIterations);
 }
 BENCHMARK(BM_AllRootsOfThreeQuadrics)->Unit(benchmark::kMillisecond);
+
+// Of the hidden robot: from the legs' directions at a pose to certified modes.
+void BM_AssemblyModes(benchmark::State& state, RobotAtPose (*make)(std::mt19937_64&),
+                      const std::vector<int>& legs) {
+  std::mt19937_64 generator(1);
+  std::vector<RobotAtPose> robots;
+  for (size_t i = 0; i < kCases; ++i) robots.push_back(make(generator));
+  size_t i = 0;
+  double complete = 0;
+  while (state.KeepRunning()) {
+    const RobotAtPose& it = robots[i++ % kCases];
+    complete += AssemblyModesOf(it.robot, legs, it.pose).status == AssemblyModesStatus::kComplete ? 1 : 0;
+  }
+  state.counters["complete"] = benchmark::Counter(complete, benchmark::Counter::kAvgIterations);
+}
+RobotAtPose LikeAQuattro(std::mt19937_64& generator) {
+  return RandomSchoenfliesRobot(generator, "_R-{2-US}");
+}
+RobotAtPose LikeAHexapod(std::mt19937_64& generator) {
+  return RandomSpatialRobot(generator, std::vector<std::string>(6, "U_PS"));
+}
+RobotAtPose WithThreePlanarArms(std::mt19937_64& generator) {
+  return RandomPlanarRobot(generator, std::vector<std::string>(3, "_RRR"));
+}
+BENCHMARK_CAPTURE(BM_AssemblyModes, quattro_pair, LikeAQuattro, {0, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_AssemblyModes, three_ups, LikeAHexapod, {0, 1, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_AssemblyModes, three_pi_rr, WithThreePlanarArms, {0, 1, 2})
+    ->Unit(benchmark::kMillisecond);
 
 // Perturbed by nothing, 12 of its 40 paths leave for infinity.
 void BM_AllAssemblyModes(benchmark::State& state, double perturbation_m) {
