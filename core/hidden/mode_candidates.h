@@ -26,6 +26,11 @@ struct ModeCandidates {
   std::string why;  // not complete, or infinite
 };
 
+// Of two solutions of a quadratic equation, the square of half of what is between them, relative: below it
+// rounding does not tell whether there are two or none.
+inline constexpr double kLeastHalf2 = 1e-12;
+inline constexpr const char* kRootsCoincide = "two poses coincide, or nearly so";
+
 // Two joints, x and y: intersections of circles and lines in the plane of `home`.
 ModeCandidates PlanarPointCandidates(const std::vector<HeldJoint>& two, const Rigid3& home);
 

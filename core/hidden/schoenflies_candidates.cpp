@@ -143,9 +143,10 @@ ModeCandidates OfLines(const std::vector<HeldJoint>& two) {
   const Eigen::Vector2d start = (apart + nearest[0] * a - nearest[1] * b).head<2>();
   const Eigen::Vector2d rate = (free[0] * a - free[1] * b).head<2>();
   const double middle = -start.dot(rate) / rate.squaredNorm();
-  const double half2 =
-      (turned.head<2>().squaredNorm() - (start + middle * rate).squaredNorm()) / rate.squaredNorm();
-  candidates.is_complete = true;
+  const double arm_m2 = turned.head<2>().squaredNorm();
+  const double half2 = (arm_m2 - (start + middle * rate).squaredNorm()) / rate.squaredNorm();
+  candidates.is_complete = std::abs(half2) * rate.squaredNorm() > kLeastHalf2 * arm_m2;
+  if (!candidates.is_complete) candidates.why = kRootsCoincide;
   if (!(half2 >= 0)) return candidates;
   for (const double step : {std::sqrt(half2), -std::sqrt(half2)}) {
     const Eigen::Vector2d along = nearest + (middle + step) * free;

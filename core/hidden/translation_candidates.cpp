@@ -17,11 +17,11 @@ VertexSpace OfOrigin(const HeldJoint& joint, const Rigid3& home) {
 
 Eigen::Vector3d Normal(const VertexSpace& circle) { return circle.along.cross(circle.second_radius); }
 
-ModeCandidates AtPoints(const std::vector<Eigen::Vector3d>& points_m, const Rigid3& home) {
+ModeCandidates AtPoint(const Eigen::Vector3d& point_m, const Rigid3& home) {
   ModeCandidates candidates;
   candidates.most_possible = 2;
   candidates.is_complete = true;
-  for (const Eigen::Vector3d& point_m : points_m) candidates.poses.push_back({home.rotation, point_m});
+  candidates.poses.push_back({home.rotation, point_m});
   return candidates;
 }
 
@@ -34,19 +34,26 @@ ModeCandidates Infinite(const char* why) {
 }
 
 // Points of a line, in the circle's plane, that are on the circle.
-std::vector<Eigen::Vector3d> OnCircle(const VertexSpace& circle, const Eigen::Vector3d& point_m,
-                                      const Eigen::Vector3d& along) {
+ModeCandidates OnCircle(const VertexSpace& circle, const Eigen::Vector3d& point_m,
+                        const Eigen::Vector3d& along, const Rigid3& home) {
   const Eigen::Vector3d nearest = point_m + along * along.dot(circle.point_m - point_m);
-  const double half_m2 = circle.radius_m * circle.radius_m - (nearest - circle.point_m).squaredNorm();
-  if (!(half_m2 >= 0)) return {};
-  return {nearest + std::sqrt(half_m2) * along, nearest - std::sqrt(half_m2) * along};
+  const double radius_m2 = circle.radius_m * circle.radius_m;
+  const double half_m2 = radius_m2 - (nearest - circle.point_m).squaredNorm();
+  ModeCandidates candidates;
+  candidates.most_possible = 2;
+  candidates.is_complete = std::abs(half_m2) > kLeastHalf2 * radius_m2;
+  if (!candidates.is_complete) candidates.why = kRootsCoincide;
+  if (!(half_m2 >= 0)) return candidates;
+  for (const double half_m : {std::sqrt(half_m2), -std::sqrt(half_m2)})
+    candidates.poses.push_back({home.rotation, nearest + half_m * along});
+  return candidates;
 }
 
 // That are not parallel.
 ModeCandidates TwoLines(const VertexSpace& a, const VertexSpace& b, const Rigid3& home) {
   const Eigen::Vector3d across = a.along.cross(b.along);
   const double along_m = (b.point_m - a.point_m).cross(b.along).dot(across) / across.squaredNorm();
-  return AtPoints({a.point_m + along_m * a.along}, home);
+  return AtPoint(a.point_m + along_m * a.along, home);
 }
 
 // Of circles in one plane the line through both common points; else the line common to both planes.
@@ -57,22 +64,22 @@ ModeCandidates TwoCircles(const VertexSpace& a, const VertexSpace& b, const Rigi
     const Eigen::Vector3d along = across.normalized();
     const Eigen::Vector3d in_a = na.cross(along);
     const Eigen::Vector3d point_m = a.point_m + in_a * (nb.dot(apart) / nb.dot(in_a));
-    return AtPoints(OnCircle(a, point_m, along), home);
+    return OnCircle(a, point_m, along, home);
   }
   if (apart.norm() < kLeastSine * a.radius_m)
     return Infinite("the circles along which the seen legs leave the platform free are the same");
   const Eigen::Vector3d towards = apart.normalized();
   const double to_chord_m =
       (apart.squaredNorm() + a.radius_m * a.radius_m - b.radius_m * b.radius_m) / (2 * apart.norm());
-  return AtPoints(OnCircle(a, a.point_m + to_chord_m * towards, na.cross(towards)), home);
+  return OnCircle(a, a.point_m + to_chord_m * towards, na.cross(towards), home);
 }
 
 ModeCandidates CircleAndLine(const VertexSpace& circle, const VertexSpace& line, const Rigid3& home) {
   const Eigen::Vector3d normal = Normal(circle);
   const double sine = normal.dot(line.along);
-  if (std::abs(sine) < kLeastSine) return AtPoints(OnCircle(circle, line.point_m, line.along), home);
+  if (std::abs(sine) < kLeastSine) return OnCircle(circle, line.point_m, line.along, home);
   const double along_m = normal.dot(circle.point_m - line.point_m) / sine;
-  return AtPoints({line.point_m + along_m * line.along}, home);
+  return AtPoint(line.point_m + along_m * line.along, home);
 }
 
 }  // namespace

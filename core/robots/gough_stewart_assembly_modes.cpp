@@ -112,8 +112,8 @@ QuadricSystem InChart(const BallQuadrics& quadrics, const Eigen::Matrix<double, 
 }
 
 // The pose in the robot's own frames.
-AssemblyMode ModeAt(const Eigen::Matrix<double, 8, 1>& study, const MiddleFrames& frames,
-                    const GoughStewart& robot, const Vector6d& joint_readings_m) {
+GoughStewartAssemblyMode ModeAt(const Eigen::Matrix<double, 8, 1>& study, const MiddleFrames& frames,
+                                const GoughStewart& robot, const Vector6d& joint_readings_m) {
   Rigid3 pose = MotionOf(study);
   pose.translation = frames.unit_m * pose.translation + frames.base_m - pose.rotation * frames.platform_m;
   return {pose, (InverseKinematics(robot, pose) - joint_readings_m).cwiseAbs().maxCoeff()};

@@ -11,13 +11,13 @@ inline constexpr int kGoughStewartRootCount = 40;  // complex, of a general robo
 
 struct AssemblyModeStart;
 
-struct AssemblyMode {
+struct GoughStewartAssemblyMode {
   Rigid3 base_from_platform;
   double largest_length_error_m = 0;  // of a leg, by InverseKinematics
 };
 
 struct GoughStewartAssemblyModes {
-  std::vector<AssemblyMode> modes;  // each proved to exist, and to differ from the others
+  std::vector<GoughStewartAssemblyMode> modes;  // each proved to exist, and to differ from the others
   // Whether 40 complex roots were certified, so that there is no mode but these. Robots of special geometry
   // have multiple roots, or roots at infinity, and are not complete by this count.
   bool is_complete = false;

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "core/hidden/assembly_modes.h"
 #include "core/robots/leg_state.h"
@@ -144,6 +147,69 @@ TEST_P(RandomHiddenRobots, HaveAsManyAssemblyModesAsAnExactCountSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomHiddenRobots, testing::ValuesIn(Families()));
+
+// Appendix B of the paper, with D_1 and D_2 so that its published assembly modes come out.
+ParallelRobot AdeptQuattro() {
+  const std::array<Eigen::Vector3d, 4> from_d_m = {
+      {{-0.066, -0.048, 0}, {0.066, -0.048, 0}, {0.066, 0.048, 0}, {-0.066, 0.048, 0}}};
+  ParallelRobot robot;
+  robot.motion = PlatformMotion::kSchoenflies;
+  robot.home.translation = {0, 0, -0.7};
+  for (size_t i = 0; i < 4; ++i) {
+    const double angle_rad = std::numbers::pi / 2 * (static_cast<double>(i) - 1.5);
+    RobotLeg leg;
+    leg.chain = ChainFromText("_R-{2-US}");
+    leg.zero_direction = {std::cos(angle_rad), std::sin(angle_rad), 0};
+    leg.base_joint_m = 0.275 * leg.zero_direction;
+    leg.first_axis = leg.zero_direction.cross(Eigen::Vector3d::UnitZ());
+    leg.arm_m = 0.38;
+    leg.rod_m = 0.825;
+    leg.carried_offset_m = from_d_m[i] + Eigen::Vector3d(-0.0256, i < 2 ? -0.0390 : -0.0239, 0);
+    if (i >= 2) leg.platform_joint_m = {0, 0.0613, 0};
+    robot.legs.push_back(leg);
+  }
+  return robot;
+}
+
+// Robots of regular shape have roots that are multiple, at infinity, or nearly so: what is called complete
+// there has to be that, too. Returns how many were.
+int CompleteAndAsCounted(const ParallelRobot& robot, const std::vector<int>& legs,
+                         const std::vector<Rigid3>& poses) {
+  int complete = 0;
+  for (const Rigid3& pose : poses) {
+    const AssemblyModes found = AssemblyModesOf(robot, legs, pose);
+    const auto exact = ExactPoseCount(robot, legs, pose);
+    ExpectDirectionsAgree({robot, pose}, legs, found);
+    EXPECT_LT(Displacement(found.modes.at(0).base_from_platform, pose).norm(), 1e-8);
+    if (found.status != AssemblyModesStatus::kComplete) continue;
+    ++complete;
+    EXPECT_TRUE(exact.has_value());
+    EXPECT_EQ(static_cast<int>(found.modes.size() + found.reversed.size()), exact ? exact->count : -1);
+  }
+  return complete;
+}
+
+TEST(RegularHiddenRobots, AreCompleteWhereTheySaySo) {
+  std::mt19937_64 generator = TestGenerator();
+  const ParallelRobot quattro = AdeptQuattro(), hexapod = ParallelRobotOf(DesktopHexapod(generator, 0));
+  std::vector<Rigid3> quattro_poses, hexapod_poses, on_axis;
+  for (int i = 0; i < LEGIBLE_RANDOM_CASES / 4; ++i) {
+    quattro_poses.push_back({RotationFromVector({0, 0, Uniform(generator, -0.7, 0.7)}),
+                             Eigen::Vector3d(0, 0, -0.7) + UniformVector(generator, -0.1, 0.1)});
+    hexapod_poses.push_back(RandomPoseNear(generator, hexapod, hexapod.home, 0.1));
+    on_axis.push_back(
+        {RotationFromVector({0, 0, i % 2 == 0 ? 0.0 : 0.01 * i}), {0, 0, 0.25 + 0.01 * (i % 20)}});
+  }
+  for (const std::vector<int>& legs : {std::vector<int>{0, 3}, {1, 2}, {0, 2}, {1, 3}})
+    std::cout << "Adept Quattro, legs " << testing::PrintToString(legs) << ": "
+              << CompleteAndAsCounted(quattro, legs, quattro_poses) << " of " << quattro_poses.size()
+              << " complete\n";
+  for (const std::vector<int>& legs : {std::vector<int>{0, 2, 4}, {0, 1, 2}})
+    std::cout << "regular hexapod, legs " << testing::PrintToString(legs) << ": "
+              << CompleteAndAsCounted(hexapod, legs, hexapod_poses) << " of " << hexapod_poses.size()
+              << " complete, on its axis " << CompleteAndAsCounted(hexapod, legs, on_axis) << " of "
+              << on_axis.size() << "\n";
+}
 
 }  // namespace
 }  // namespace legible

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/hidden/assembly_modes.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
 #include "tests/testing/random.h"
@@ -153,6 +154,25 @@ TEST(Type2Measure, IsZeroWhereThePlatformMovesWithDirectionsHeld) {
       }
     const auto values = rates.jacobiSvd().singularValues();
     EXPECT_LT(values.tail<1>()[0], 1e-5 * values[0]);
+  }
+}
+
+// There two assembly modes coincide, which rounding makes one, two or none: the pose is found all the same.
+TEST(AssemblyModes, OfASingularPoseBeginWithThePose) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const Family& family : Families()) {
+    if (family.kind == RobotKind::kReal) continue;
+    SCOPED_TRACE(family.name);
+    for (int n = 0; n < 5; ++n) {
+      const Way way = WayThroughSingularity(family, generator);
+      const Rigid3 pose = way.At(ZeroOn(family, way));
+      const AssemblyModes found = AssemblyModesOf(way.robot, family.legs, pose);
+      EXPECT_EQ(found.why.empty(), found.status == AssemblyModesStatus::kComplete);
+      if (found.status == AssemblyModesStatus::kInfinite) continue;
+      ASSERT_FALSE(found.modes.empty());
+      EXPECT_LT(Displacement(found.modes[0].base_from_platform, pose).norm(), 1e-6);
+      EXPECT_LT(found.modes[0].largest_direction_error, 1e-9);
+    }
   }
 }
 

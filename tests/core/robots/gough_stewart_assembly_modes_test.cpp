@@ -48,7 +48,7 @@ Rigid3 PoseNearHome(std::mt19937_64& generator, const GoughStewart& robot) {
 
 double DistanceTo(const GoughStewartAssemblyModes& found, const Rigid3& pose) {
   double distance = std::numeric_limits<double>::infinity();
-  for (const AssemblyMode& mode : found.modes)
+  for (const GoughStewartAssemblyMode& mode : found.modes)
     distance = std::min(distance, Displacement(mode.base_from_platform, pose).norm());
   return distance;
 }
@@ -62,7 +62,7 @@ void ExpectSound(const GoughStewartAssemblyModes& found, const GoughStewart& rob
             0);  // the others are conjugate pairs
   EXPECT_EQ(found.certified + found.at_infinity + found.uncertified, 40);
   EXPECT_EQ(found.is_complete, found.certified == 40);
-  for (const AssemblyMode& mode : found.modes) {
+  for (const GoughStewartAssemblyMode& mode : found.modes) {
     const Vector6d errors_m = InverseKinematics(robot, mode.base_from_platform) - readings_m;
     EXPECT_LT(errors_m.cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_EQ(mode.largest_length_error_m, errors_m.cwiseAbs().maxCoeff());
@@ -76,7 +76,8 @@ void ExpectSound(const GoughStewartAssemblyModes& found, const GoughStewart& rob
 // Each of the modes is one of the others', and they are as many.
 void ExpectSameModes(const GoughStewartAssemblyModes& found, const GoughStewartAssemblyModes& others) {
   EXPECT_EQ(found.modes.size(), others.modes.size());
-  for (const AssemblyMode& mode : found.modes) EXPECT_LT(DistanceTo(others, mode.base_from_platform), 1e-7);
+  for (const GoughStewartAssemblyMode& mode : found.modes)
+    EXPECT_LT(DistanceTo(others, mode.base_from_platform), 1e-7);
 }
 
 // P. Dietmaier, The Stewart-Gough platform of general geometry can have 40 real postures, Advances in Robot
@@ -186,7 +187,7 @@ TEST(AllAssemblyModes, OfPlanarRobotsComeInMirroredPairs) {
     const GoughStewartAssemblyModes found = AllAssemblyModes(robot, readings_m);
     ExpectSound(found, robot, readings_m);
     EXPECT_TRUE(found.is_complete);
-    for (const AssemblyMode& mode : found.modes) {
+    for (const GoughStewartAssemblyMode& mode : found.modes) {
       const Eigen::Matrix3d rotation = mode.base_from_platform.rotation.toRotationMatrix();
       const Rigid3 mirrored{Eigen::Quaterniond(Eigen::Matrix3d(mirror * rotation * mirror)),
                             mirror * mode.base_from_platform.translation};
@@ -210,7 +211,7 @@ TEST(AllAssemblyModes, DoNotDependOnTheFramesNorOnTheUnitOfLength) {
     }
     GoughStewartAssemblyModes found = AllAssemblyModes(moved, kScale * readings_m);
     EXPECT_TRUE(found.is_complete);
-    for (AssemblyMode& mode : found.modes) {
+    for (GoughStewartAssemblyMode& mode : found.modes) {
       mode.base_from_platform.translation /= kScale;
       mode.base_from_platform = Inverse(world_from_base) * mode.base_from_platform * tool_from_platform;
     }
