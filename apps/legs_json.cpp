@@ -14,22 +14,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* ToString(PlatformMotion motion) {
-  switch (motion) {
-    case PlatformMotion::kPlanarPoint:
-      return "planar-point";
-    case PlatformMotion::kPlanar:
-      return "planar";
-    case PlatformMotion::kTranslation:
-      return "translation";
-    case PlatformMotion::kSchoenflies:
-      return "schoenflies";
-    case PlatformMotion::kSpatial:
-      break;
-  }
-  return "spatial";
-}
-
 ordered_json PoseJson(const Rigid3& pose) {
   return {{"rotation_xyzw", List(pose.rotation.coeffs())}, {"translation_m", List(pose.translation)}};
 }
@@ -107,13 +91,14 @@ ordered_json SimulationJson(const std::optional<DirectionServoRun>& run, const R
 ordered_json SetJson(const JudgedLegSet& set, const Controllability& by_lines, const Rigid3& goal) {
   ordered_json path = PathJson(set.path);
   path["is_the_simulated_way"] = set.is_path_simulated;
+  const bool was_judged = set.error_at_goal.has_value();  // else it was ruled out before
   return {{"legs", FromOne(set.legs)},
           {"verdict", ToString(set.verdict)},
           {"why", set.why},
           {"controllability", ControllabilityJson(set.controllability)},
           {"by_lines", ControllabilityJson(by_lines)},
-          {"path", path},
-          {"assembly_modes", ModesJson(set.modes, goal)},
+          {"path", was_judged ? path : ordered_json()},
+          {"assembly_modes", was_judged ? ModesJson(set.modes, goal) : ordered_json()},
           {"largest_error_at_goal", ErrorJson(set.error_at_goal)},
           {"largest_error_on_path", ErrorJson(set.error_on_path)},
           {"simulation", SimulationJson(set.simulated, goal)}};
@@ -126,6 +111,9 @@ std::vector<std::string> Warnings(const LegsRun& run) {
                                    run.selection.robot_path.why));
   if (!run.selection.has_choice) return warnings;
   const JudgedLegSet& best = run.selection.sets.front();
+  if (best.verdict == LegSetVerdict::kArrives)
+    warnings.push_back(fmt::format("legs {} are not proved to lead to the goal: {}",
+                                   fmt::join(FromOne(best.legs), ","), best.why));
   if (best.modes.status != AssemblyModesStatus::kComplete)
     warnings.push_back(fmt::format("the assembly modes of legs {} may not be all: {}",
                                    fmt::join(FromOne(best.legs), ","), best.modes.why));

@@ -10,6 +10,7 @@
 namespace legible {
 namespace {
 
+constexpr int kMostLegs = 99;
 constexpr char kDescription[] = "Say which legs to watch on a way, and what a servo may end in instead";
 constexpr char kFooter[] =
     R"(A servo of leg directions controls a robot hidden in its law (Briot et al. 2016): that whose actuated joints are the
@@ -56,7 +57,7 @@ const CLI::App* AddLegsCommand(CLI::App& program, LegsSettings& settings) {
   AddPose(*command, "--to", settings.to, "Pose at the goal; the robot's home without it");
   AddText(
       *command, "--legs", "N,N,...",
-      [&settings](const std::string& text) { settings.leg_sets.push_back(ParseLegs(text)); },
+      [&settings](const std::string& text) { settings.leg_sets.push_back(ParseLegs(text, kMostLegs)); },
       "A set of legs to judge; may be repeated; every set\nwithout it")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->trigger_on_parse();

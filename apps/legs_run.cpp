@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "apps/leg_visibility.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
@@ -13,9 +16,21 @@
 namespace legible {
 namespace {
 
+// A servo of any gain is simulated alike: by steps of this part of its time constant, for so many of them.
+constexpr double kStepTimesGain = 0.008;
+constexpr double kLongestTimesGain = 48;
+
 Rigid3 PoseOf(const std::optional<Vector6d>& pose, const Rigid3& home) {
   if (!pose) return home;
   return {RotationFromVector(pose->tail<3>()), pose->head<3>()};
+}
+
+// Angles by any number of whole turns.
+bool IsWithin(const LegChain& chain, double reading, const std::array<double, 2>& range) {
+  const double middle = (range[0] + range[1]) / 2;
+  const double off =
+      ReadsAngle(chain) ? std::remainder(reading - middle, 2 * std::numbers::pi) : reading - middle;
+  return std::abs(off) <= (range[1] - range[0]) / 2;
 }
 
 void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, const Rigid3& pose,
@@ -30,7 +45,7 @@ void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, c
       throw InputError(settings.model, 0,
                        fmt::format("has a leg {} that does not reach the pose of {}", i + 1, option),
                        "give a pose within reach");
-    if (range && (state->reading < (*range)[0] || state->reading > (*range)[1]))
+    if (range && !IsWithin(robot.legs[i].chain, state->reading, *range))
       throw InputError(
           settings.model, 0,
           fmt::format("has a leg {} that would read {:.4g} at the pose of {}, beyond its range of {:.4g} to "
@@ -73,6 +88,8 @@ LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
   options.leg_sets = settings.leg_sets;
   options.cone_half_angle_rad = settings.noise_rad;
   options.servo.gain_per_s = settings.gain_per_s;
+  options.servo.step_s = kStepTimesGain / settings.gain_per_s;
+  options.servo.longest_s = kLongestTimesGain / settings.gain_per_s;
   options.is_visible = VisibilityByModel(settings.model, run.robot);
   run.selection = SelectLegs(run.robot, run.from, run.to, options, [&](int judged, int of) {
     progress.Show(StageText("judging sets of legs", judged, of));

@@ -5,13 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/orientation.h"
 #include "core/geometry/rigid3.h"
 
 namespace legible {
 
 // Half angle of the cone about each seen direction, where the user says nothing: 0.1 degrees, as in the
 // paper.
-inline constexpr double kAssumedDirectionNoise_rad = 0.00174532925199;
+inline constexpr double kAssumedDirectionNoise_rad = 0.1 * kDegree_rad;
 
 struct LegsSettings {
   std::filesystem::path model;

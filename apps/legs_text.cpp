@@ -36,6 +36,7 @@ std::string ErrorText(const ordered_json& error) {
 }
 
 std::string ModeCountText(const ordered_json& modes) {
+  if (modes.is_null()) return "-";
   const std::string status = modes.at("status");
   if (status == "infinite") return "infinitely many";
   if (status == "unreachable" || modes.at("modes").empty()) return "-";
@@ -67,6 +68,7 @@ std::string PoseText(const ordered_json& pose) {
 std::string ModesText(const ordered_json& document) {
   std::string text;
   for (const ordered_json& set : document.at("sets")) {
+    if (set.at("assembly_modes").is_null()) continue;
     const ordered_json& modes = set.at("assembly_modes").at("modes");
     for (size_t i = 1; i < modes.size(); ++i)
       text += fmt::format(

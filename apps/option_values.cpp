@@ -7,7 +7,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/robots/gough_stewart.h"
 #include "datasets/text.h"
 
 namespace legible {
@@ -50,12 +49,12 @@ Vector6d ParseSix(const std::string& text, const std::string& what) {
 
 Vector6d ParsePose(const std::string& text) { return ParseSix(text, "x y z rx ry rz"); }
 
-std::vector<int> ParseLegs(const std::string& text) {
+std::vector<int> ParseLegs(const std::string& text, int most) {
   std::vector<int> legs;
   for (const std::string& part : Split(text, ',')) {
     const std::optional<int> leg = ParseInteger(part);
-    if (!leg || *leg < 1 || *leg > kLegCount)
-      throw std::invalid_argument(fmt::format("\"{}\" is no leg: legs count from 1 to {}", part, kLegCount));
+    if (!leg || *leg < 1 || *leg > most)
+      throw std::invalid_argument(fmt::format("\"{}\" is no leg: legs count from 1 to {}", part, most));
     if (std::find(legs.begin(), legs.end(), *leg - 1) != legs.end())
       throw std::invalid_argument(fmt::format("leg {} is named twice", *leg));
     legs.push_back(*leg - 1);

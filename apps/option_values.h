@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/rigid3.h"
+#include "core/robots/gough_stewart.h"
 
 namespace legible {
 
@@ -15,7 +16,8 @@ double ParsePositive(const std::string& text);
 
 // Six numbers between blanks or commas; `what` names them in the message.
 Vector6d ParseSix(const std::string& text, const std::string& what);
-Vector6d ParsePose(const std::string& text);          // "x y z rx ry rz"
-std::vector<int> ParseLegs(const std::string& text);  // "1,3,5", from 1; result from 0
+Vector6d ParsePose(const std::string& text);  // "x y z rx ry rz"
+// "1,3,5", from 1 to `most`; result from 0.
+std::vector<int> ParseLegs(const std::string& text, int most = kLegCount);
 
 }  // namespace legible

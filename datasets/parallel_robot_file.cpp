@@ -19,22 +19,13 @@
 namespace legible {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PlatformMotion>, 5> kMotions = {{
-    {"planar-point", PlatformMotion::kPlanarPoint},
-    {"planar", PlatformMotion::kPlanar},
-    {"translation", PlatformMotion::kTranslation},
-    {"schoenflies", PlatformMotion::kSchoenflies},
-    {"spatial", PlatformMotion::kSpatial},
-}};
-
 PlatformMotion MotionFromYaml(const YamlValue& section) {
   const std::string name = section.Text();
-  const auto* known = std::find_if(kMotions.begin(), kMotions.end(),
-                                   [&](const auto& motion) { return motion.first == name; });
-  if (known == kMotions.end())
-    section.Fail(fmt::format("is \"{}\", no motion of a platform", name),
-                 "give planar-point, planar, translation, schoenflies or spatial");
-  return known->second;
+  using enum PlatformMotion;
+  for (const PlatformMotion motion : {kPlanarPoint, kPlanar, kTranslation, kSchoenflies, kSpatial})
+    if (name == ToString(motion)) return motion;
+  section.Fail(fmt::format("is \"{}\", no motion of a platform", name),
+               "give planar-point, planar, translation, schoenflies or spatial");
 }
 
 LegChain ChainFromYaml(const YamlValue& section) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "core/hidden/singularity_conditions.h"
 #include "core/robots/leg_state.h"
@@ -16,16 +18,6 @@ namespace {
 
 // A step that leads where a leg does not reach is halved; one this much smaller than asked for is given up.
 constexpr int kMostHalvings = 20;
-
-std::vector<LegState> StatesOf(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& pose) {
-  std::vector<LegState> states;
-  for (const int leg : legs) {
-    const auto state = StateOf(robot.legs[static_cast<size_t>(leg)], pose);
-    if (!state) return {};
-    states.push_back(*state);
-  }
-  return states;
-}
 
 // Uniform over the disc across the direction.
 Eigen::Vector3d Noisy(const Eigen::Vector3d& direction, double half_angle_rad, std::mt19937& random) {
@@ -42,23 +34,21 @@ class Simulation {
  public:
   Simulation(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& goal,
              const DirectionServoOptions& options)
-      : robot_(robot), legs_(legs), options_(options), goal_(StatesOf(robot, legs, goal)) {
-    if (goal_.empty()) throw std::invalid_argument("a seen leg does not reach the goal");
-  }
+      : robot_(robot), legs_(legs), options_(options), goal_(StatesAt(goal, "goal")) {}
 
   // Nothing where a leg does not reach the pose.
   std::optional<DirectionServoSample> At(double time_s, const Rigid3& pose) const {
     const auto states = StatesOf(robot_, legs_, pose);
-    if (states.empty()) return std::nullopt;
+    if (!states) return std::nullopt;
     DirectionServoSample sample{time_s, pose, {}};
-    for (size_t k = 0; k < states.size(); ++k)
-      sample.errors_rad.push_back(states[k].direction.cross(goal_[k].direction).norm());
+    for (size_t k = 0; k < states->size(); ++k)
+      sample.errors_rad.push_back((*states)[k].direction.cross(goal_[k].direction).norm());
     return sample;
   }
 
   // What the law commands at a pose that all seen legs reach.
   Vector6d Twist(const Rigid3& pose, std::mt19937& random) const {
-    const auto states = StatesOf(robot_, legs_, pose);
+    const std::vector<LegState> states = StatesAt(pose, "pose");
     const auto rows = static_cast<Eigen::Index>(3 * legs_.size());
     Eigen::VectorXd errors(rows);
     Eigen::MatrixXd interaction(rows, 6);
@@ -96,6 +86,12 @@ class Simulation {
   }
 
  private:
+  std::vector<LegState> StatesAt(const Rigid3& pose, const std::string& which) const {
+    auto states = StatesOf(robot_, legs_, pose);
+    if (!states) throw std::invalid_argument("a seen leg does not reach the " + which);
+    return *std::move(states);
+  }
+
   const ParallelRobot& robot_;
   const std::vector<int>& legs_;
   const DirectionServoOptions& options_;
@@ -121,6 +117,8 @@ const char* ToString(DirectionServoEnd end) {
 DirectionServoRun SimulateDirectionServo(const ParallelRobot& robot, const std::vector<int>& legs,
                                          const Rigid3& from, const Rigid3& to,
                                          const DirectionServoOptions& options, std::mt19937& random) {
+  if (!(options.step_s > 0) || !(options.gain_per_s > 0))
+    throw std::invalid_argument("a simulated servo needs a step and a gain of more than 0");
   const Simulation simulation(robot, legs, to, options);
   DirectionServoRun run;
   const auto start = simulation.At(0, from);

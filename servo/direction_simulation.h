@@ -21,7 +21,7 @@ struct DirectionServoOptions {
 };
 
 enum class DirectionServoEnd {
-  kConverged,     // every seen direction is that of the goal
+  kConverged,     // |u x u*| is 0 for every seen leg: it points as at the goal, or exactly the other way
   kLocalMinimum,  // it stands, and they are not
   kAtBoundary,    // a leg is stretched or folded (Type 1): it cannot go on
   kTimeUp,

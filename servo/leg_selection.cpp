@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 
 #include "core/robots/leg_state.h"
@@ -82,8 +83,9 @@ class Judge {
     PredictErrors(set);
     if (set.path.verdict == PathVerdict::kFree) {
       set.verdict = LegSetVerdict::kPossible;
-    } else if (set.path.verdict == PathVerdict::kSingular) {
-      set.verdict = LegSetVerdict::kOtherAspect;
+    } else if (set.path.verdict == PathVerdict::kSingular || set.path.verdict == PathVerdict::kOutOfReach) {
+      set.verdict = set.path.verdict == PathVerdict::kSingular ? LegSetVerdict::kOtherAspect
+                                                               : LegSetVerdict::kOutOfReach;
       set.why = set.path.why;
     } else {
       JudgeBySimulation(set);
@@ -112,10 +114,7 @@ class Judge {
     };
     set.controllability = ControllabilityOf(robot_, set.legs, to_, SeenFeature::kDirections);
     if (set.controllability.status != ControllabilityStatus::kControllable)
-      return rule_out(set.controllability.status == ControllabilityStatus::kUnreachable
-                          ? LegSetVerdict::kOutOfReach
-                          : LegSetVerdict::kUncontrollable,
-                      set.controllability.why);
+      return rule_out(VerdictOf(set.controllability.status), set.controllability.why);
     for (const Rigid3& pose : way_)
       for (const int leg : set.legs) {
         if (!StateOf(robot_.legs[static_cast<size_t>(leg)], pose))
@@ -128,6 +127,13 @@ class Judge {
     return false;
   }
 
+  static LegSetVerdict VerdictOf(ControllabilityStatus status) {
+    if (status == ControllabilityStatus::kUnreachable) return LegSetVerdict::kOutOfReach;
+    return status == ControllabilityStatus::kSingularPose ? LegSetVerdict::kSingularGoal
+                                                          : LegSetVerdict::kUncontrollable;
+  }
+
+  // Along the straight way.
   void PredictErrors(JudgedLegSet& set) const {
     const auto at = [&](const Rigid3& pose) {
       return LargestErrorByConeNoise(robot_, set.legs, pose, options_.cone_half_angle_rad);
@@ -148,7 +154,8 @@ class Judge {
     const PathCertificate own_way =
         CertifyPath(robot_, RobotKind::kHidden, set.legs, Waypoints(*set.simulated, to_));
     if (own_way.verdict != PathVerdict::kFree) {
-      set.why = set.path.why;
+      set.verdict = LegSetVerdict::kArrives;
+      set.why = set.path.why + "; simulated, the servo arrives, which is no proof";
       return;
     }
     set.path = own_way;
@@ -176,18 +183,33 @@ void Rank(const ParallelRobot& robot, std::vector<JudgedLegSet>& sets) {
                    [&](const JudgedLegSet& a, const JudgedLegSet& b) { return key(a) < key(b); });
 }
 
+bool LeadsToGoal(const JudgedLegSet& set) {
+  return set.verdict == LegSetVerdict::kPossible || set.verdict == LegSetVerdict::kArrives;
+}
+
+void CheckOptions(const ParallelRobot& robot, const LegSelectionOptions& options) {
+  if (options.path_samples < 2) throw std::invalid_argument("a way needs two samples or more");
+  if (options.leg_sets.empty() && static_cast<int>(robot.legs.size()) > kMostLegsToChooseFrom)
+    throw std::invalid_argument("of more than " + std::to_string(kMostLegsToChooseFrom) +
+                                " legs there are too many sets: name some");
+}
+
 }  // namespace
 
 const char* ToString(LegSetVerdict verdict) {
   switch (verdict) {
     case LegSetVerdict::kPossible:
       return "possible";
+    case LegSetVerdict::kArrives:
+      return "arrives";
     case LegSetVerdict::kUndecided:
       return "undecided";
     case LegSetVerdict::kInvisible:
       return "invisible";
     case LegSetVerdict::kUncontrollable:
       return "uncontrollable";
+    case LegSetVerdict::kSingularGoal:
+      return "singular-goal";
     case LegSetVerdict::kOtherAspect:
       return "other-aspect";
     case LegSetVerdict::kOutOfReach:
@@ -201,6 +223,7 @@ const char* ToString(LegSetVerdict verdict) {
 LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to,
                         const LegSelectionOptions& options,
                         const std::function<void(int judged, int of)>& progress) {
+  CheckOptions(robot, options);
   const Judge judge(robot, from, to, options);
   LegSelection selection;
   std::vector<int> every(robot.legs.size());
@@ -212,10 +235,11 @@ LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Ri
     if (progress) progress(static_cast<int>(i) + 1, static_cast<int>(all.size()));
   }
   Rank(robot, selection.sets);
-  while (selection.sets.front().verdict == LegSetVerdict::kPossible) {
+  while (LeadsToGoal(selection.sets.front())) {
     judge.Simulate(selection.sets.front());
-    selection.has_choice = selection.sets.front().verdict == LegSetVerdict::kPossible;
-    if (selection.has_choice) break;
+    selection.has_choice =
+        LeadsToGoal(selection.sets.front()) && selection.robot_path.verdict != PathVerdict::kSingular;
+    if (LeadsToGoal(selection.sets.front())) break;
     Rank(robot, selection.sets);
   }
   return selection;

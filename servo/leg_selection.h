@@ -16,6 +16,9 @@
 
 namespace legible {
 
+// Of which every set is judged.
+inline constexpr int kMostLegsToChooseFrom = 8;
+
 struct LegSelectionOptions {
   std::vector<std::vector<int>> leg_sets;  // to judge, legs from 0; empty: every set
   double cone_half_angle_rad = 1e-3;       // by which each seen direction is off at most
@@ -26,13 +29,15 @@ struct LegSelectionOptions {
 };
 
 enum class LegSetVerdict {
-  kPossible,   // start and goal are in one aspect
-  kUndecided,  // that could not be proved, and the simulation did not lead to the goal
-  kInvisible,  // a leg does not show all the way
-  kUncontrollable,
-  kOtherAspect,  // proved: no path without a singularity
-  kOutOfReach,   // a leg does not reach start, goal or the way between
-  kMisled,       // in one aspect, but simulated it ends elsewhere
+  kPossible,        // start and goal are proved to be in one aspect
+  kArrives,         // that could not be proved, but the servo, simulated, ends at the goal
+  kUndecided,       // that could not be proved, and the servo, simulated, ends elsewhere
+  kInvisible,       // a leg does not show all the way
+  kUncontrollable,  // the directions do not hold the platform anywhere
+  kSingularGoal,    // not at the goal, though elsewhere
+  kOtherAspect,     // proved: no path without a singularity
+  kOutOfReach,      // a leg does not reach start, goal or the way between
+  kMisled,          // in one aspect, but simulated it ends elsewhere
 };
 const char* ToString(LegSetVerdict verdict);
 
@@ -50,12 +55,14 @@ struct JudgedLegSet {
 
 struct LegSelection {
   PathCertificate robot_path;      // the real robot's, straight
-  std::vector<JudgedLegSet> sets;  // possible ones first, best first
-  bool has_choice = false;         // the first one is possible, and was simulated
+  std::vector<JudgedLegSet> sets;  // by verdict, best first
+  bool has_choice = false;         // the servo of the first one ends at the goal, simulated
 };
 
-// Ranked by the largest displacement of a platform joint by cone noise (position plus rotation by the
-// platform's radius) at the goal, then on the way. `is_done(judged, of)` is told of progress.
+// Ranked by a bound of a platform joint's displacement by cone noise (largest position plus largest rotation
+// by the platform's radius) at the goal, then on the way. There is no choice where the robot itself is proved
+// to have a singularity between start and goal. Throws std::invalid_argument for fewer than two path samples
+// or more than kMostLegsToChooseFrom legs. `is_done(judged, of)` is told of progress.
 LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to,
                         const LegSelectionOptions& options,
                         const std::function<void(int judged, int of)>& progress = {});

@@ -132,14 +132,19 @@ Rigid3 Polished(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, Ri
   return pose;
 }
 
-enum class Judged { kMode, kReversed, kOther };
+enum class Judged {
+  kMode,
+  kReversed,
+  kOther,     // some seen leg points elsewhere
+  kDoubtful,  // too near a stretched or folded leg to tell
+};
 
 struct JudgedPose {
   Judged as = Judged::kOther;
   AssemblyMode mode;
 };
 
-// Largest error of a direction at the pose, and of one whose leg may point the other way.
+// Whether the candidate, once polished, is a mode.
 JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, const Rigid3& candidate) {
   JudgedPose judged{Judged::kOther, {candidate, 0, true}};
   bool is_reversed = false;
@@ -154,6 +159,7 @@ JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, c
     judged.as = Judged::kReversed;
     return judged;
   }
+  judged.as = Judged::kDoubtful;
   judged.mode.base_from_platform = Polished(robot, seen, candidate);
   for (const SeenLeg& leg : seen) {
     const auto nearest = NearestStateOf(leg, judged.mode.base_from_platform);
@@ -207,6 +213,10 @@ void TakeCandidates(const ParallelRobot& robot, const std::vector<SeenLeg>& seen
   for (const Rigid3& candidate : candidates) {
     const JudgedPose judged = Judge(robot, seen, candidate);
     if (judged.as == Judged::kReversed) modes.reversed.push_back(candidate);
+    if (judged.as == Judged::kDoubtful) {
+      modes.status = AssemblyModesStatus::kIncomplete;
+      modes.why = "a pose where a seen leg is all but stretched or folded could not be told from a mode";
+    }
     if (judged.as != Judged::kMode) continue;
     const bool is_known = std::any_of(modes.modes.begin(), modes.modes.end(), [&](const AssemblyMode& known) {
       return Distance(known.base_from_platform, judged.mode.base_from_platform) < kSamePose;

@@ -136,6 +136,7 @@ Controllability ControllabilityOf(const ParallelRobot& robot, const std::vector<
   if (!elsewhere && feature == SeenFeature::kDirections)
     result.why = StructuralReason(robot, legs, rank->freedoms);
   if (result.why.empty()) result.why = AboutUnseen(*rank);
+  if (elsewhere) result.why = "at this pose, though not elsewhere, " + result.why;
   return result;
 }
 

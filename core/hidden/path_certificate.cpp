@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "core/algebra/ball.h"
+#include "core/hidden/singularity_geometry.h"
 #include "core/robots/leg_geometry.h"
 #include "core/robots/platform_motion.h"
 
@@ -15,7 +17,9 @@ namespace {
 // Of the path; a smaller piece is left undecided.
 constexpr double kSmallestPiece = 1e-7;
 constexpr double kLargestPiece = 1.0 / 8;
-constexpr double kSignMargin = 1e-9;
+// By which pieces overlap, and row sums stay below 1.
+constexpr double kMargin = 1e-9;
+constexpr int kReachSamples = 64;
 
 using Vector3Ball = leg_geometry::Vector3<RealBall>;
 using Matrix3Ball = Eigen::Matrix<RealBall, 3, 3>;
@@ -62,8 +66,6 @@ class StraightPath {
   Rigid3 from_;
   Eigen::Vector3d travel_m_, turn_rad_;
 };
-
-enum class PieceVerdict { kFree, kOutOfReach, kUndecided };
 
 // [I, -[R b]x] in balls.
 Eigen::Matrix<RealBall, 3, 6> PlatformJointVelocity(const Vector3Ball& turned_m) {
@@ -115,31 +117,68 @@ bool HasFullRank(const RealBallMatrix& m) {
       const RealBall off = product(i, j) - RealBall(i == j ? 1.0 : 0.0);
       sum += std::max(std::abs(LowerBound(off)), std::abs(UpperBound(off)));
     }
-    if (!(sum < 1 - kSignMargin)) return false;
+    if (!(sum < 1 - kMargin)) return false;
   }
   return true;
 }
 
-PieceVerdict JudgePiece(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
-                        const Eigen::MatrixXd& scaled_basis, const PathPose& pose) {
+// Whether no pose of the piece is singular.
+bool IsFree(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
+            const Eigen::MatrixXd& scaled_basis, const PathPose& pose) {
   const Eigen::Index rows_per_leg = kind == RobotKind::kReal ? 1 : 3;
   RealBallMatrix held(rows_per_leg * static_cast<Eigen::Index>(legs.size()), 6);
   for (size_t k = 0; k < legs.size(); ++k) {
     const LegRows leg = RowsOf(robot.legs[static_cast<size_t>(legs[k])], kind, pose);
-    if (!leg.rows) return leg.is_out_of_reach ? PieceVerdict::kOutOfReach : PieceVerdict::kUndecided;
+    if (!leg.rows) return false;
     held.middleRows(rows_per_leg * static_cast<Eigen::Index>(k), rows_per_leg) = *leg.rows;
   }
-  return HasFullRank(held * scaled_basis.cast<RealBall>()) ? PieceVerdict::kFree : PieceVerdict::kUndecided;
+  return HasFullRank(held * scaled_basis.cast<RealBall>());
 }
 
-// Of a signed condition that is known at both ends; 0 where it is not.
-int SignsBetween(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs, const Rigid3& from,
-                 const Rigid3& to) {
-  if (robot.motion == PlatformMotion::kTranslation && kind == RobotKind::kHidden) return 0;  // unsigned
-  const auto a = Type2MeasureOf(robot, kind, legs, from), b = Type2MeasureOf(robot, kind, legs, to);
-  if (!a || !b || !a->geometric || !b->geometric) return 0;
-  if (std::min(std::abs(*a->geometric), std::abs(*b->geometric)) < kSignMargin) return 0;
-  return *a->geometric * *b->geometric > 0 ? 1 : -1;
+// The signed condition of as few legs as the platform needs, enclosed at a pose; nothing where there is none.
+std::optional<RealBall> SignedCondition(const ParallelRobot& robot, RobotKind kind,
+                                        const std::vector<int>& legs, const PathPose& pose, double size_m) {
+  std::vector<singularity_geometry::Joint<RealBall>> joints;
+  for (const int leg : legs) {
+    const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
+    const Vector3Ball turned_m = Times(pose.rotation, it.platform_joint_m);
+    const Vector3Ball c = pose.translation_m + turned_m + it.carried_offset_m.cast<RealBall>();
+    const auto reached = leg_geometry::Reach<RealBall>(it, SeenSegmentOf(it.chain), c);
+    if (!(LowerBound(reached.reach) > 0)) return std::nullopt;
+    joints.push_back({c, turned_m, kind == RobotKind::kReal ? reached.along_m : reached.free_direction});
+  }
+  const RealBall size(size_m);
+  if (robot.motion == PlatformMotion::kPlanarPoint && joints.size() == 2)
+    return joints[0].direction.cross(joints[1].direction)[2];
+  if (robot.motion == PlatformMotion::kPlanar && joints.size() == 3)
+    return singularity_geometry::LinesMeet(joints, size, kind == RobotKind::kHidden);
+  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kTranslation && joints.size() == 3)
+    return singularity_geometry::Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
+  if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSchoenflies && joints.size() == 2)
+    return singularity_geometry::Schoenflies(joints, size);
+  if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSpatial && joints.size() == 3)
+    return singularity_geometry::PlanesMeet(joints, size);
+  return std::nullopt;
+}
+
+// Whether the signed condition is proved to have one sign at the one end and the other at the other.
+bool SignsDiffer(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
+                 const StraightPath& path, double size_m) {
+  const auto a = SignedCondition(robot, kind, legs, path.Over(RealBall(0.0)), size_m);
+  const auto b = SignedCondition(robot, kind, legs, path.Over(RealBall(1.0)), size_m);
+  if (!a || !b) return false;
+  return (LowerBound(*a) > 0 && UpperBound(*b) < 0) || (UpperBound(*a) < 0 && LowerBound(*b) > 0);
+}
+
+// Whether a leg is proved not to reach some pose of the path beyond s.
+bool LeavesReach(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
+                 const StraightPath& path, double s) {
+  for (int i = 1; i <= kReachSamples; ++i) {
+    const PathPose pose = path.Over(RealBall(s + (1 - s) * i / kReachSamples));
+    for (const int leg : legs)
+      if (RowsOf(robot.legs[static_cast<size_t>(leg)], kind, pose).is_out_of_reach) return true;
+  }
+  return false;
 }
 
 std::optional<std::string> WhyNotJudged(const ParallelRobot& robot, RobotKind kind,
@@ -150,16 +189,10 @@ std::optional<std::string> WhyNotJudged(const ParallelRobot& robot, RobotKind ki
     const bool holds_along = chain[0].is_actuated == (segment.carrier != Carrier::kFixed);
     if (segment.direction != DirectionOf::kLeg || (kind == RobotKind::kReal && !holds_along))
       return "paths of " + ToText(chain) + " legs are not judged";
-    if (robot.motion == PlatformMotion::kSpatial && chain[0].type == JointType::kRevolute &&
-        segment.carrier == Carrier::kFixed)
-      return std::string("a straight path leaves what RPS legs allow");
   }
+  if (robot.motion == PlatformMotion::kSpatial && MotionBasis(robot, robot.home).cols() < 6)
+    return std::string("a straight path leaves what RPS legs allow");
   return std::nullopt;
-}
-
-const char* WhyUndecided(PieceVerdict piece) {
-  return piece == PieceVerdict::kOutOfReach ? "a leg cannot reach the path there"
-                                            : "the path passes a singularity there, or very near to one";
 }
 
 }  // namespace
@@ -170,6 +203,8 @@ const char* ToString(PathVerdict verdict) {
       return "free";
     case PathVerdict::kSingular:
       return "singular";
+    case PathVerdict::kOutOfReach:
+      return "out-of-reach";
     case PathVerdict::kUndecided:
       break;
   }
@@ -185,16 +220,12 @@ PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, 
     return certificate;
   }
   const StraightPath path(from, to);
-  const auto scaled_basis = MotionBasisInSize(robot, from, SizeOf_m(robot, from));
-  double piece = kLargestPiece;
-  auto last = PieceVerdict::kFree;
-  while (certificate.at < 1 && piece >= kSmallestPiece) {
+  const double size_m = SizeOf_m(robot, from);
+  const auto scaled_basis = MotionBasisInSize(robot, from, size_m);
+  for (double piece = kLargestPiece; certificate.at < 1 && piece >= kSmallestPiece;) {
     const double end = std::min(certificate.at + piece, 1.0);
-    const double middle = (certificate.at + end) / 2;
-    last =
-        JudgePiece(robot, kind, legs, scaled_basis, path.Over(RealBall(middle, (end - certificate.at) / 2)));
-    if (last == PieceVerdict::kOutOfReach) break;
-    if (last == PieceVerdict::kUndecided) {
+    const RealBall s((certificate.at + end) / 2, (end - certificate.at) / 2 * (1 + kMargin));
+    if (!IsFree(robot, kind, legs, scaled_basis, path.Over(s))) {
       piece /= 2;
       continue;
     }
@@ -205,22 +236,24 @@ PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, 
   certificate.pose = path.At(certificate.at);
   if (certificate.at >= 1) {
     certificate.verdict = PathVerdict::kFree;
-    return certificate;
-  }
-  certificate.why = WhyUndecided(last);
-  if (last == PieceVerdict::kOutOfReach) certificate.verdict = PathVerdict::kSingular;
-  if (SignsBetween(robot, kind, legs, from, to) < 0) {
+  } else if (SignsDiffer(robot, kind, legs, path, size_m)) {
     certificate.verdict = PathVerdict::kSingular;
     certificate.why = "start and goal lie on either side of a singularity: no path avoids it";
+  } else if (LeavesReach(robot, kind, legs, path, certificate.at)) {
+    certificate.verdict = PathVerdict::kOutOfReach;
+    certificate.why = "a leg cannot reach the straight path beyond there";
+  } else {
+    certificate.why = "the path passes a singularity there, or very near to one";
   }
   return certificate;
 }
 
 PathCertificate CertifyPath(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
                             const std::vector<Rigid3>& poses) {
+  if (poses.size() < 2) throw std::invalid_argument("a path has two poses or more");
   PathCertificate whole;
   whole.verdict = PathVerdict::kFree;
-  const double parts = static_cast<double>(std::max<size_t>(poses.size(), 2) - 1);
+  const double parts = static_cast<double>(poses.size() - 1);
   for (size_t i = 0; i + 1 < poses.size(); ++i) {
     PathCertificate part = CertifyStraightPath(robot, kind, legs, poses[i], poses[i + 1]);
     part.pieces += whole.pieces;

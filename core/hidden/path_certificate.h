@@ -11,10 +11,10 @@
 namespace legible {
 
 enum class PathVerdict {
-  kFree,      // proved: no singularity on the path, so that its ends are in one aspect
-  kSingular,  // proved: a signed condition changes its sign, so that no path joins the ends within an aspect,
-              // or a leg cannot reach a piece of the path
-  kUndecided,  // neither, down to the smallest piece: the path passes a singularity or very near to one
+  kFree,        // proved: no singularity on the path, so that its ends are in one aspect
+  kSingular,    // proved: a signed condition changes its sign, no path joins the ends within an aspect
+  kOutOfReach,  // proved: a leg does not reach some pose of the path
+  kUndecided,   // neither, down to the smallest piece: the path passes a singularity or very near to one
 };
 const char* ToString(PathVerdict verdict);
 

@@ -116,7 +116,7 @@ ModeCandidates OfCircles(const std::vector<HeldJoint>& two) {
     candidates.poses.push_back(PoseOf(two, place(0), place(1)));
   }
   const int missing = candidates.most_possible - static_cast<int>(roots.roots.size());
-  candidates.is_complete = missing == 0;
+  candidates.is_complete = missing <= 0;
   if (missing > 0)
     candidates.why = std::to_string(missing) + " of the " + std::to_string(candidates.most_possible) +
                      " roots are multiple or at infinity";

@@ -7,19 +7,13 @@ namespace {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-Matrix36 PointVelocity(const Eigen::Vector3d& from_origin_m) {
-  Matrix36 velocity;
-  velocity << Eigen::Matrix3d::Identity(), -Skew(from_origin_m);
-  return velocity;
-}
-
 // Velocity of the start B of the seen segment; of a rail fixed in the platform that of the platform's point
 // there, which differs from B's along the rail alone.
 Matrix36 StartVelocity(const RobotLeg& leg, const LegState& state, const Rigid3& base_from_platform) {
   const SeenSegment segment = SeenSegmentOf(leg.chain);
   if (segment.direction == DirectionOf::kPlatform)
-    return PointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation);
-  const Matrix36 dc = PointVelocity(base_from_platform.rotation * leg.platform_joint_m);
+    return PlatformPointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation);
+  const Matrix36 dc = PlatformPointVelocity(base_from_platform.rotation * leg.platform_joint_m);
   if (segment.direction == DirectionOf::kConstant) return dc;  // the rod carries C along itself alone
   if (segment.carrier == Carrier::kFixed) return Matrix36::Zero();
   const Eigen::Vector3d& t = state.free_direction;

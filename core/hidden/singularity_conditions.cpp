@@ -92,17 +92,6 @@ double SmallestOfLargest(const ParallelRobot& robot, const Rigid3& pose, const E
   return values[0] > 0 ? values[basis.cols() - 1] / values[0] : 0;
 }
 
-std::optional<std::vector<LegState>> StatesOf(const ParallelRobot& robot, const std::vector<int>& legs,
-                                              const Rigid3& pose) {
-  std::vector<LegState> states;
-  for (const int leg : legs) {
-    const auto state = StateOf(robot.legs[static_cast<size_t>(leg)], pose);
-    if (!state) return std::nullopt;
-    states.push_back(*state);
-  }
-  return states;
-}
-
 }  // namespace
 
 double SizeOf_m(const ParallelRobot& robot, const Rigid3& base_from_platform) {

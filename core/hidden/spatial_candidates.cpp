@@ -9,7 +9,7 @@ namespace legible {
 namespace {
 
 // Of the platform's size; below it three joints are on one line.
-constexpr double kLeastTriangle = 1e-9;
+constexpr double kLeastTriangle = 1e-5;
 
 // C on its line by how far along it is, which is the unknown of that index.
 std::array<AffineForm, 3> OnLine(const VertexSpace& space, int unknown) {

@@ -24,7 +24,9 @@ bool AreRods(JointType type) {
   return type == JointType::kParallelRodsUS || type == JointType::kParallelRodsUU;
 }
 
-bool Turns(JointType type) { return type != JointType::kPrismatic && type != JointType::kParallelogram; }
+bool IsRevoluteOrPrismatic(JointType type) {
+  return type == JointType::kRevolute || type == JointType::kPrismatic;
+}
 
 [[noreturn]] void ThrowUnknownChain(const LegChain& chain, const char* what) {
   throw std::invalid_argument("the leg " + ToText(chain) + " " + what);
@@ -107,17 +109,20 @@ SeenSegment SeenSegmentOf(const LegChain& chain) {
   const bool starts_on_rail = first == JointType::kPrismatic;
   const bool starts_on_arm = first == JointType::kRevolute;
   const Carrier carrier = starts_on_rail ? Carrier::kLine : Carrier::kCircle;
-  const bool ends_in_rotation = Turns(last);
 
   if (starts_on_rail && second == JointType::kPrismatic && last == JointType::kRevolute)
     return {Carrier::kLine, true, DirectionOf::kConstant};
+  const bool is_planar =
+      IsRevoluteOrPrismatic(first) && IsRevoluteOrPrismatic(second) && IsRevoluteOrPrismatic(last);
+  const bool ends_freely = last == JointType::kUniversal || last == JointType::kSpherical;
+  const bool ends_in_rotation = is_planar ? last == JointType::kRevolute : ends_freely;
   if ((first == JointType::kRevolute || first == JointType::kUniversal) && second == JointType::kPrismatic &&
       ends_in_rotation)
     return {Carrier::kFixed, true, DirectionOf::kLeg};
   if ((starts_on_rail || starts_on_arm) && second == JointType::kRevolute && last == JointType::kPrismatic)
     return {carrier, true, DirectionOf::kPlatform};
-  if ((starts_on_rail || starts_on_arm) &&
-      (second == JointType::kRevolute || second == JointType::kUniversal) && ends_in_rotation)
+  const bool turns_freely = is_planar ? second == JointType::kRevolute : second == JointType::kUniversal;
+  if ((starts_on_rail || starts_on_arm) && turns_freely && ends_in_rotation)
     return {carrier, false, DirectionOf::kLeg};
   ThrowUnknownChain(chain,
                     "is none of those known: UPS, UPU, RPS, RPR, RRR, PRR, RUU, RUS, PUU, PUS, R-{2-US}, "

@@ -56,8 +56,8 @@ struct SeenSegment {
 };
 
 // Throws std::invalid_argument, which quotes the chain, unless it is one of those whose kinematics are known:
-// XPY; RXY, PXY with X an R, a U or parallel rods; PPR; PRP, RRP (X, Y: R, U or S), with one actuated joint
-// among the joints that lead the seen segment.
+// RPR, RRR, PRR, PPR, PRP and RRP in the plane; UPX, RPX, RUX, PUX with X a U or S, or parallel rods for UX,
+// with one actuated joint among the joints that lead the seen segment.
 SeenSegment SeenSegmentOf(const LegChain& chain);
 
 // Whether the actuated joint's reading is an angle (rad); else it is a length or position (m).

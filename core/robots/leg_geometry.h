@@ -1,4 +1,4 @@
-// How a leg reaches a pose, for doubles and for balls alike: what parallel_robot.cpp computes, and what
+// How a leg reaches a pose, for doubles and for balls alike: what leg_state.cpp computes, and what
 // certificates along a path enclose.
 #pragma once
 

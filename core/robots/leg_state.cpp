@@ -14,15 +14,8 @@ constexpr double kLeastSine = 1e-12;
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-// Velocity of a point that turns with the platform, by the twist of its origin.
-Matrix36 PointVelocity(const Eigen::Vector3d& from_origin_m) {
-  Matrix36 velocity;
-  velocity << Eigen::Matrix3d::Identity(), -Skew(from_origin_m);
-  return velocity;
-}
-
 Matrix36 PlatformJointVelocity(const RobotLeg& leg, const Rigid3& base_from_platform) {
-  return PointVelocity(base_from_platform.rotation * leg.platform_joint_m);
+  return PlatformPointVelocity(base_from_platform.rotation * leg.platform_joint_m);
 }
 
 // Angle of a direction about an axis, from where it is zero.
@@ -115,7 +108,7 @@ Row6 PlatformRailRow(const RobotLeg& leg, Carrier carrier, const LegState& state
       carrier == Carrier::kLine ? leg.first_axis : leg.first_axis.cross(from_a);
   const Row6 carrier_row =
       across.transpose() *
-      PointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation) /
+      PlatformPointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation) /
       across.dot(start_by_joint);
   if (leg.chain[0].is_actuated) return carrier_row;
   const Row6 platform_turn = AxisOfAngles(leg).z() * Row6::Unit(5);
@@ -130,6 +123,23 @@ Row6 TwoRailsRow(const RobotLeg& leg, const Matrix36& dc) {
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 3, 6> PlatformPointVelocity(const Eigen::Vector3d& from_origin_m) {
+  Matrix36 velocity;
+  velocity << Eigen::Matrix3d::Identity(), -Skew(from_origin_m);
+  return velocity;
+}
+
+std::optional<std::vector<LegState>> StatesOf(const ParallelRobot& robot, const std::vector<int>& legs,
+                                              const Rigid3& base_from_platform) {
+  std::vector<LegState> states;
+  for (const int leg : legs) {
+    const auto state = StateOf(robot.legs[static_cast<size_t>(leg)], base_from_platform);
+    if (!state) return std::nullopt;
+    states.push_back(*state);
+  }
+  return states;
+}
 
 std::optional<LegState> StateOf(const RobotLeg& leg, const Rigid3& base_from_platform) {
   const Eigen::Vector3d c = base_from_platform * leg.platform_joint_m + leg.carried_offset_m;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "core/robots/parallel_robot.h"
 
@@ -23,6 +24,14 @@ struct LegState {
 // Nothing where the leg does not reach the pose, or reaches it only stretched, folded or otherwise singular
 // (Type 1).
 std::optional<LegState> StateOf(const RobotLeg& leg, const Rigid3& base_from_platform);
+
+// Of these legs (from 0), in this order; nothing where one does not reach the pose.
+std::optional<std::vector<LegState>> StatesOf(const ParallelRobot& robot, const std::vector<int>& legs,
+                                              const Rigid3& base_from_platform);
+
+// Velocity of a point that turns with the platform, 3 x 6, by the twist (v, omega) of the platform's origin;
+// all in base, the point from the origin.
+Eigen::Matrix<double, 3, 6> PlatformPointVelocity(const Eigen::Vector3d& from_origin_m);
 
 // du/dt = matrix * twist, the leg's interaction matrix M_i^T (Briot et al. 2016, eq. 7, B.14), 3 x 6, twist
 // (v, omega) of the platform's origin, all in base. With t the free direction:

@@ -45,6 +45,17 @@ void CheckChain(PlatformMotion motion, const LegChain& chain) {
         (is_planar ? " belongs to a planar robot" : " does not move in a plane"));
 }
 
+// What a leg takes from the platform has to be what the platform's motion leaves out.
+void CheckEnds(PlatformMotion motion, const LegChain& chain) {
+  if (motion == PlatformMotion::kSpatial && chain.back().type != JointType::kSpherical)
+    Throw("chain: a leg " + ToText(chain) + " takes a rotation from a spatial platform: it has to end in S");
+  const bool is_in_plane =
+      chain.front().type == JointType::kRevolute && SeenSegmentOf(chain).carrier == Carrier::kFixed;
+  if (motion != PlatformMotion::kSpatial && !IsPlanar(motion) && is_in_plane)
+    Throw("chain: a leg " + ToText(chain) +
+          " keeps its platform joint in a plane, which this platform's motion does not");
+}
+
 void CheckAxes(const RobotLeg& leg, const LegFields& fields) {
   if (fields.first_axis) CheckUnit("first_axis", leg.first_axis);
   if (fields.second_axis) CheckUnit("second_axis", leg.second_axis);
@@ -85,6 +96,22 @@ void CheckLengths(const RobotLeg& leg, const LegFields& fields) {
 
 }  // namespace
 
+const char* ToString(PlatformMotion motion) {
+  switch (motion) {
+    case PlatformMotion::kPlanarPoint:
+      return "planar-point";
+    case PlatformMotion::kPlanar:
+      return "planar";
+    case PlatformMotion::kTranslation:
+      return "translation";
+    case PlatformMotion::kSchoenflies:
+      return "schoenflies";
+    case PlatformMotion::kSpatial:
+      break;
+  }
+  return "spatial";
+}
+
 LegFields FieldsOf(const LegChain& chain) {
   const SeenSegment segment = SeenSegmentOf(chain);
   const bool has_arm = segment.carrier == Carrier::kCircle;
@@ -103,6 +130,7 @@ LegFields FieldsOf(const LegChain& chain) {
 void CheckLeg(const ParallelRobot& robot, const RobotLeg& leg) {
   const LegFields fields = FieldsOfLeg(leg);
   CheckChain(robot.motion, leg.chain);
+  CheckEnds(robot.motion, leg.chain);
   CheckAxes(leg, fields);
   if (IsPlanar(robot.motion)) CheckPlanar(robot.home, leg, fields);
   CheckLengths(leg, fields);

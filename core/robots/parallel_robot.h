@@ -24,6 +24,9 @@ enum class PlatformMotion {
   kSpatial,      // all six, less what RPS legs forbid
 };
 
+// "planar-point", "planar", "translation", "schoenflies", "spatial": as files have it.
+const char* ToString(PlatformMotion motion);
+
 // A leg from its base joint A over the start B of its seen segment to its platform joint C.
 struct RobotLeg {
   LegChain chain;
