@@ -135,6 +135,38 @@ bool IsFree(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& 
   return HasFullRank(held * scaled_basis.cast<RealBall>());
 }
 
+// By elimination with the pivots of the largest midpoints; not a number where one of these may be 0.
+RealBall DeterminantOf(RealBallMatrix matrix) {
+  RealBall determinant(1.0);
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
+      if (std::abs(MidpointOf(matrix(i, k))) > std::abs(MidpointOf(matrix(pivot, k)))) pivot = i;
+    if (pivot != k) {
+      matrix.row(pivot).swap(matrix.row(k));
+      determinant = -determinant;
+    }
+    determinant *= matrix(k, k);
+    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
+      matrix.row(i) -= matrix.row(k) * (matrix(i, k) / matrix(k, k));
+  }
+  return determinant;
+}
+
+// Lines along u through the platform joints: their coordinates, of which a Schoenflies motion has four.
+RealBall LinesDependent(const std::vector<singularity_geometry::Joint<RealBall>>& joints,
+                        const RealBall& size) {
+  const auto count = static_cast<Eigen::Index>(joints.size());
+  RealBallMatrix lines(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& joint = joints[static_cast<size_t>(i)];
+    const Vector3Ball moment = joint.from_origin_m.cross(joint.direction) / size;
+    for (Eigen::Index k = 0; k < 3; ++k) lines(i, k) = joint.direction[k];
+    for (Eigen::Index k = 3; k < count; ++k) lines(i, k) = moment[count == 4 ? 2 : k - 3];
+  }
+  return DeterminantOf(lines);
+}
+
 // The signed condition of as few legs as the platform needs, enclosed at a pose; nothing where there is none.
 std::optional<RealBall> SignedCondition(const ParallelRobot& robot, RobotKind kind,
                                         const std::vector<int>& legs, const PathPose& pose, double size_m) {
@@ -154,6 +186,10 @@ std::optional<RealBall> SignedCondition(const ParallelRobot& robot, RobotKind ki
     return singularity_geometry::LinesMeet(joints, size, kind == RobotKind::kHidden);
   if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kTranslation && joints.size() == 3)
     return singularity_geometry::Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
+  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kSpatial && joints.size() == 6)
+    return LinesDependent(joints, size);
+  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kSchoenflies && joints.size() == 4)
+    return LinesDependent(joints, size);
   if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSchoenflies && joints.size() == 2)
     return singularity_geometry::Schoenflies(joints, size);
   if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSpatial && joints.size() == 3)

@@ -13,7 +13,7 @@ Matrix36 StartVelocity(const RobotLeg& leg, const LegState& state, const Rigid3&
   const SeenSegment segment = SeenSegmentOf(leg.chain);
   if (segment.direction == DirectionOf::kPlatform)
     return PlatformPointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation);
-  const Matrix36 dc = PlatformPointVelocity(base_from_platform.rotation * leg.platform_joint_m);
+  Matrix36 dc = PlatformPointVelocity(base_from_platform.rotation * leg.platform_joint_m);
   if (segment.direction == DirectionOf::kConstant) return dc;  // the rod carries C along itself alone
   if (segment.carrier == Carrier::kFixed) return Matrix36::Zero();
   const Eigen::Vector3d& t = state.free_direction;

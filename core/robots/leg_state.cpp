@@ -106,12 +106,12 @@ Row6 PlatformRailRow(const RobotLeg& leg, Carrier carrier, const LegState& state
   const Eigen::Vector3d from_a = state.start_m - leg.base_joint_m;
   const Eigen::Vector3d start_by_joint =
       carrier == Carrier::kLine ? leg.first_axis : leg.first_axis.cross(from_a);
-  const Row6 carrier_row =
+  Row6 carrier_row =
       across.transpose() *
       PlatformPointVelocity(state.start_m - leg.carried_offset_m - base_from_platform.translation) /
       across.dot(start_by_joint);
   if (leg.chain[0].is_actuated) return carrier_row;
-  const Row6 platform_turn = AxisOfAngles(leg).z() * Row6::Unit(5);
+  Row6 platform_turn = AxisOfAngles(leg).z() * Row6::Unit(5);
   if (carrier == Carrier::kLine) return platform_turn;
   return platform_turn - carrier_row;
 }
@@ -188,7 +188,7 @@ Eigen::Matrix<double, 1, 6> ReadingRow(const RobotLeg& leg, const LegState& stat
   const bool is_first = leg.chain[0].is_actuated;
   if (segment.carrier == Carrier::kFixed && !is_first) return state.direction.transpose() * dc;
   if (segment.carrier != Carrier::kFixed && is_first) return CarrierRow(leg, segment.carrier, state, dc);
-  const Row6 turning =
+  Row6 turning =
       TurningRow(AxisOfAngles(leg), state.direction, DirectionInteraction(leg, state, base_from_platform));
   if (segment.carrier == Carrier::kCircle) return turning - CarrierRow(leg, segment.carrier, state, dc);
   return turning;

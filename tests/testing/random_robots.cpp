@@ -27,7 +27,7 @@ double SineOf(const RobotLeg& leg, const LegState& state) {
 
 RobotLeg LegThatReaches(const std::function<RobotLeg()>& draw, const Rigid3& pose) {
   for (int i = 0; i < kMostDraws; ++i) {
-    const RobotLeg leg = draw();
+    RobotLeg leg = draw();
     const auto state = StateOf(leg, pose);
     if (state && SineOf(leg, *state) > kLeastSine) return leg;
   }

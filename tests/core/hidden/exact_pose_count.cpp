@@ -1,6 +1,7 @@
 #include "tests/core/hidden/exact_pose_count.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <stdexcept>
 
 #include "core/robots/leg_state.h"
@@ -203,6 +204,7 @@ RationalPolynomial PolynomialOf(const ParallelRobot& robot, const std::vector<Ex
 std::optional<RealRoots> ExactPoseCount(const ParallelRobot& robot, const std::vector<int>& legs,
                                         const Rigid3& pose) {
   std::vector<ExactLeg> exact;
+  exact.reserve(legs.size());
   for (const int leg : legs) exact.push_back(ExactLegOf(robot.legs[static_cast<size_t>(leg)], pose));
   return RealRootsOf(PolynomialOf(robot, exact));
 }

@@ -92,7 +92,7 @@ Way WayThroughSingularity(const Family& family, std::mt19937_64& generator) {
     const auto basis = MotionBasis(random.robot, random.pose);
     Vector6d twist = Vector6d::Zero();
     for (Eigen::Index k = 0; k < basis.cols(); ++k) twist += Uniform(generator, -0.5, 0.5) * basis.col(k);
-    const Way way{random.robot, random.pose, twist};
+    Way way{random.robot, random.pose, twist};
     if (!IsReached(way)) continue;
     const double a = MeasureAt(family, way, 0).geometric.value(),
                  b = MeasureAt(family, way, 1).geometric.value();
