@@ -106,7 +106,8 @@ std::string MisledTable(const GoughStewart& robot, const MisledWay& way) {
       "| legs | | ends at | from the goal | largest error (rad) |\n| --- | --- | --- | --- | --- |\n",
       PoseText(way.from), PoseText(way.to));
   text += RowOf(general, way.legs, way, "misled");
-  if (selection.has_choice) text += RowOf(general, selection.sets.front().legs, way, "the choice of `legible legs`");
+  if (selection.has_choice)
+    text += RowOf(general, selection.sets.front().legs, way, "the choice of `legible legs`");
   int possible = 0;
   for (const JudgedLegSet& set : selection.sets)
     if (set.verdict == LegSetVerdict::kPossible) ++possible;
