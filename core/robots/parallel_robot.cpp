@@ -94,6 +94,19 @@ void CheckLengths(const RobotLeg& leg, const LegFields& fields) {
   if (leg.working_mode != 1 && leg.working_mode != -1) Throw("working_mode has to be 1 or -1");
 }
 
+// Of a robot whose legs extend between two joints.
+template <typename LegOfRobot>
+RobotLeg ExtensibleLeg(const char* chain, const LegOfRobot& leg) {
+  RobotLeg it;
+  it.chain = ChainFromText(chain);
+  it.base_joint_m = leg.base_joint_m;
+  it.platform_joint_m = leg.platform_joint_m;
+  it.joint_offset = leg.joint_offset_m;
+  it.joint_range = leg.joint_range_m;
+  it.radius_m = leg.radius_m;
+  return it;
+}
+
 }  // namespace
 
 const char* ToString(PlatformMotion motion) {
@@ -149,31 +162,13 @@ void Check(const ParallelRobot& robot) {
 
 ParallelRobot ParallelRobotOf(const GoughStewart& robot) {
   ParallelRobot general{robot.name, PlatformMotion::kSpatial, robot.home, {}};
-  for (const Leg& leg : robot.legs) {
-    RobotLeg it;
-    it.chain = ChainFromText("U_PS");
-    it.base_joint_m = leg.base_joint_m;
-    it.platform_joint_m = leg.platform_joint_m;
-    it.joint_offset = leg.joint_offset_m;
-    it.joint_range = leg.joint_range_m;
-    it.radius_m = leg.radius_m;
-    general.legs.push_back(it);
-  }
+  for (const Leg& leg : robot.legs) general.legs.push_back(ExtensibleLeg("U_PS", leg));
   return general;
 }
 
 ParallelRobot ParallelRobotOf(const ThreeUpu& robot) {
   ParallelRobot general{robot.name, PlatformMotion::kTranslation, robot.home, {}};
-  for (const UpuLeg& leg : robot.legs) {
-    RobotLeg it;
-    it.chain = ChainFromText("U_PU");
-    it.base_joint_m = leg.base_joint_m;
-    it.platform_joint_m = leg.platform_joint_m;
-    it.joint_offset = leg.joint_offset_m;
-    it.joint_range = leg.joint_range_m;
-    it.radius_m = leg.radius_m;
-    general.legs.push_back(it);
-  }
+  for (const UpuLeg& leg : robot.legs) general.legs.push_back(ExtensibleLeg("U_PU", leg));
   return general;
 }
 
