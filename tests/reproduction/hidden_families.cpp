@@ -95,7 +95,7 @@ RobotAtPose WithParallelRails(RobotAtPose it) {
 // Parallel rails may put the pose out of reach: as many robots are drawn as it takes.
 RobotAtPose Reaching(const Robots& make, std::mt19937_64& random) {
   for (;;) {
-    const RobotAtPose it = make(random);
+    RobotAtPose it = make(random);
     if (ControllabilityOf(it.robot, AllLegs(it.robot), it.pose, SeenFeature::kDirections).status !=
         ControllabilityStatus::kUnreachable)
       return it;
