@@ -137,20 +137,19 @@ int MostPossible(const std::vector<HeldJoint>& three) {
 
 }  // namespace
 
-ModeCandidates PlanarCandidates(const std::vector<HeldJoint>& unsorted, const Rigid3& home) {
-  std::vector<HeldJoint> three = unsorted;
-  for (HeldJoint& joint : three) {
+ModeCandidates PlanarCandidates(const std::vector<HeldJoint>& three, const Rigid3& home) {
+  std::vector<HeldJoint> held = three;
+  for (HeldJoint& joint : held) {
     joint.space.point_m -= joint.carried_m;
     joint.carried_m.setZero();
   }
-  std::stable_partition(three.begin(), three.end(),
+  std::stable_partition(held.begin(), held.end(),
                         [](const HeldJoint& joint) { return joint.space.is_circle; });
   ModeCandidates candidates;
-  candidates.most_possible = MostPossible(three);
+  candidates.most_possible = MostPossible(held);
   std::vector<Eigen::VectorXcd> approximations;
-  for (const Complex& e : RootsOf(ResultantCoefficients(three)))
-    approximations.push_back(UnknownsAt(three, e));
-  const CertifiedRoots roots = CertifyRoots(SystemOf(three), approximations);
+  for (const Complex& e : RootsOf(ResultantCoefficients(held))) approximations.push_back(UnknownsAt(held, e));
+  const CertifiedRoots roots = CertifyRoots(SystemOf(held), approximations);
   for (const CertifiedRoot& root : roots.roots)
     if (root.is_real)
       candidates.poses.push_back(
