@@ -5,12 +5,6 @@
 namespace legible {
 namespace {
 
-bool IsPlanar(const LegChain& chain) {
-  return std::none_of(chain.begin(), chain.end(), [](const ChainJoint& joint) {
-    return joint.type != JointType::kRevolute && joint.type != JointType::kPrismatic;
-  });
-}
-
 bool HasSphericalEnd(JointType type) {
   return type == JointType::kSpherical || type == JointType::kParallelRodsUS;
 }

@@ -135,41 +135,9 @@ bool IsFree(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& 
   return HasFullRank(held * scaled_basis.cast<RealBall>());
 }
 
-// By elimination with the pivots of the largest midpoints; not a number where one of these may be 0.
-RealBall DeterminantOf(RealBallMatrix matrix) {
-  RealBall determinant(1.0);
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    Eigen::Index pivot = k;
-    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
-      if (std::abs(MidpointOf(matrix(i, k))) > std::abs(MidpointOf(matrix(pivot, k)))) pivot = i;
-    if (pivot != k) {
-      matrix.row(pivot).swap(matrix.row(k));
-      determinant = -determinant;
-    }
-    determinant *= matrix(k, k);
-    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
-      matrix.row(i) -= matrix.row(k) * (matrix(i, k) / matrix(k, k));
-  }
-  return determinant;
-}
-
-// Lines along u through the platform joints: their coordinates, of which a Schoenflies motion has four.
-RealBall LinesDependent(const std::vector<singularity_geometry::Joint<RealBall>>& joints,
-                        const RealBall& size) {
-  const auto count = static_cast<Eigen::Index>(joints.size());
-  RealBallMatrix lines(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& joint = joints[static_cast<size_t>(i)];
-    const Vector3Ball moment = joint.from_origin_m.cross(joint.direction) / size;
-    for (Eigen::Index k = 0; k < 3; ++k) lines(i, k) = joint.direction[k];
-    for (Eigen::Index k = 3; k < count; ++k) lines(i, k) = moment[count == 4 ? 2 : k - 3];
-  }
-  return DeterminantOf(lines);
-}
-
 // The signed condition of as few legs as the platform needs, enclosed at a pose; nothing where there is none.
-std::optional<RealBall> SignedCondition(const ParallelRobot& robot, RobotKind kind,
-                                        const std::vector<int>& legs, const PathPose& pose, double size_m) {
+std::optional<RealBall> EnclosedCondition(const ParallelRobot& robot, RobotKind kind,
+                                          const std::vector<int>& legs, const PathPose& pose, double size_m) {
   std::vector<singularity_geometry::Joint<RealBall>> joints;
   for (const int leg : legs) {
     const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
@@ -179,29 +147,14 @@ std::optional<RealBall> SignedCondition(const ParallelRobot& robot, RobotKind ki
     if (!(LowerBound(reached.reach) > 0)) return std::nullopt;
     joints.push_back({c, turned_m, kind == RobotKind::kReal ? reached.along_m : reached.free_direction});
   }
-  const RealBall size(size_m);
-  if (robot.motion == PlatformMotion::kPlanarPoint && joints.size() == 2)
-    return joints[0].direction.cross(joints[1].direction)[2];
-  if (robot.motion == PlatformMotion::kPlanar && joints.size() == 3)
-    return singularity_geometry::LinesMeet(joints, size, kind == RobotKind::kHidden);
-  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kTranslation && joints.size() == 3)
-    return singularity_geometry::Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
-  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kSpatial && joints.size() == 6)
-    return LinesDependent(joints, size);
-  if (kind == RobotKind::kReal && robot.motion == PlatformMotion::kSchoenflies && joints.size() == 4)
-    return LinesDependent(joints, size);
-  if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSchoenflies && joints.size() == 2)
-    return singularity_geometry::Schoenflies(joints, size);
-  if (kind == RobotKind::kHidden && robot.motion == PlatformMotion::kSpatial && joints.size() == 3)
-    return singularity_geometry::PlanesMeet(joints, size);
-  return std::nullopt;
+  return singularity_geometry::SignedCondition(robot.motion, kind, joints, RealBall(size_m));
 }
 
 // Whether the signed condition is proved to have one sign at the one end and the other at the other.
 bool SignsDiffer(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
                  const StraightPath& path, double size_m) {
-  const auto a = SignedCondition(robot, kind, legs, path.Over(RealBall(0.0)), size_m);
-  const auto b = SignedCondition(robot, kind, legs, path.Over(RealBall(1.0)), size_m);
+  const auto a = EnclosedCondition(robot, kind, legs, path.Over(RealBall(0.0)), size_m);
+  const auto b = EnclosedCondition(robot, kind, legs, path.Over(RealBall(1.0)), size_m);
   if (!a || !b) return false;
   return (LowerBound(*a) > 0 && UpperBound(*b) < 0) || (UpperBound(*a) < 0 && LowerBound(*b) > 0);
 }
@@ -221,10 +174,9 @@ std::optional<std::string> WhyNotJudged(const ParallelRobot& robot, RobotKind ki
                                         const std::vector<int>& legs) {
   for (const int leg : legs) {
     const LegChain& chain = robot.legs[static_cast<size_t>(leg)].chain;
-    const SeenSegment segment = SeenSegmentOf(chain);
-    const bool holds_along = chain[0].is_actuated == (segment.carrier != Carrier::kFixed);
-    if (segment.direction != DirectionOf::kLeg || (kind == RobotKind::kReal && !holds_along))
-      return "paths of " + ToText(chain) + " legs are not judged";
+    const bool is_judged = kind == RobotKind::kReal ? HoldsAlongSegment(chain)
+                                                    : SeenSegmentOf(chain).direction == DirectionOf::kLeg;
+    if (!is_judged) return "paths of " + ToText(chain) + " legs are not judged";
   }
   if (robot.motion == PlatformMotion::kSpatial && MotionBasis(robot, robot.home).cols() < 6)
     return std::string("a straight path leaves what RPS legs allow");

@@ -14,58 +14,12 @@ namespace {
 
 using singularity_geometry::Joint;
 
-// The condition of the hidden robot with as many legs as the platform needs.
-std::optional<double> HiddenCondition(PlatformMotion motion, const std::vector<Joint<double>>& joints,
-                                      double size_m) {
-  switch (motion) {
-    case PlatformMotion::kPlanarPoint:
-      if (joints.size() == 2) return joints[0].direction.cross(joints[1].direction).z();
-      break;
-    case PlatformMotion::kPlanar:
-      if (joints.size() == 3) return singularity_geometry::LinesMeet(joints, size_m, true);
-      break;
-    case PlatformMotion::kTranslation:
-      if (joints.size() == 2) return joints[0].direction.cross(joints[1].direction).norm();
-      break;
-    case PlatformMotion::kSchoenflies:
-      if (joints.size() == 2) return singularity_geometry::Schoenflies(joints, size_m);
-      break;
-    case PlatformMotion::kSpatial:
-      if (joints.size() == 3) return singularity_geometry::PlanesMeet(joints, size_m);
-      break;
-  }
-  return std::nullopt;
-}
-
-// Of the lines along u through the platform joints, of which the real robot holds the lengths.
-std::optional<double> RealCondition(PlatformMotion motion, const std::vector<Joint<double>>& joints,
-                                    double size_m) {
-  const size_t count = joints.size();
-  if (motion == PlatformMotion::kPlanarPoint && count == 2)
-    return joints[0].direction.cross(joints[1].direction).z();
-  if (motion == PlatformMotion::kPlanar && count == 3)
-    return singularity_geometry::LinesMeet(joints, size_m, false);
-  if (motion == PlatformMotion::kTranslation && count == 3)
-    return singularity_geometry::Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
-  if ((motion == PlatformMotion::kSpatial && count == 6) ||
-      (motion == PlatformMotion::kSchoenflies && count == 4)) {
-    Eigen::MatrixXd lines(count, 6);
-    for (size_t i = 0; i < count; ++i)
-      lines.row(static_cast<Eigen::Index>(i)) << joints[i].direction.transpose(),
-          joints[i].from_origin_m.cross(joints[i].direction).transpose() / size_m;
-    if (count == 6) return lines.determinant();
-    Eigen::Matrix4d square;
-    square << lines.leftCols<3>(), lines.col(5);
-    return square.determinant();
-  }
-  return std::nullopt;
-}
-
-// Whether the actuated joint holds the platform joint's place along u.
-bool HoldsAlongLeg(const RobotLeg& leg) {
-  const SeenSegment segment = SeenSegmentOf(leg.chain);
-  if (segment.direction != DirectionOf::kLeg) return false;
-  return leg.chain[0].is_actuated == (segment.carrier != Carrier::kFixed);
+// Signed or, of two directions of a translation, a length.
+std::optional<double> ConditionOf(PlatformMotion motion, RobotKind kind,
+                                  const std::vector<Joint<double>>& joints, double size_m) {
+  if (motion == PlatformMotion::kTranslation && kind == RobotKind::kHidden && joints.size() == 2)
+    return joints[0].direction.cross(joints[1].direction).norm();
+  return singularity_geometry::SignedCondition(motion, kind, joints, size_m);
 }
 
 Eigen::MatrixXd HeldRows(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
@@ -110,7 +64,7 @@ std::optional<Type2Measure> Type2MeasureOf(const ParallelRobot& robot, RobotKind
   std::vector<Joint<double>> joints;
   for (size_t k = 0; k < legs.size(); ++k) {
     const RobotLeg& leg = robot.legs[static_cast<size_t>(legs[k])];
-    const bool is_known = kind == RobotKind::kReal ? HoldsAlongLeg(leg)
+    const bool is_known = kind == RobotKind::kReal ? HoldsAlongSegment(leg.chain)
                                                    : SeenSegmentOf(leg.chain).direction == DirectionOf::kLeg;
     if (!is_known) return measure;
     const LegState& state = (*states)[k];
@@ -118,8 +72,7 @@ std::optional<Type2Measure> Type2MeasureOf(const ParallelRobot& robot, RobotKind
                       kind == RobotKind::kReal ? state.direction : state.free_direction});
   }
   const double size_m = SizeOf_m(robot, base_from_platform);
-  measure.geometric = kind == RobotKind::kReal ? RealCondition(robot.motion, joints, size_m)
-                                               : HiddenCondition(robot.motion, joints, size_m);
+  measure.geometric = ConditionOf(robot.motion, kind, joints, size_m);
   return measure;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
+#include <cmath>
+#include <optional>
 #include <vector>
 
+#include "core/algebra/ball.h"
 #include "core/hidden/singularity_conditions.h"
 
 namespace legible::singularity_geometry {
@@ -56,6 +58,65 @@ T Schoenflies(const std::vector<Joint<T>>& joints, const T& size_m) {
   const Vector3<T> apart = (joints[0].from_origin_m - joints[1].from_origin_m) / size_m;
   const Vector3<T> turning(-apart[1], apart[0], T(0));
   return Determinant3(joints[0].direction, joints[1].direction, turning);
+}
+
+inline double MiddleOf(double x) { return x; }
+inline double MiddleOf(const RealBall& x) { return MidpointOf(x); }
+
+// By elimination with the pivots of the largest middles; of balls not a number where one of these may be 0.
+template <typename T>
+T DeterminantOf(Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix) {
+  T determinant(1.0);
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
+      if (std::abs(MiddleOf(matrix(i, k))) > std::abs(MiddleOf(matrix(pivot, k)))) pivot = i;
+    if (MiddleOf(matrix(pivot, k)) == 0) return T(0.0) * matrix(pivot, k);
+    if (pivot != k) {
+      matrix.row(pivot).swap(matrix.row(k));
+      determinant = -determinant;
+    }
+    determinant *= matrix(k, k);
+    for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
+      matrix.row(i) -= matrix.row(k) * (matrix(i, k) / matrix(k, k));
+  }
+  return determinant;
+}
+
+// Lines through the joints are dependent; a Schoenflies motion has four of their coordinates.
+template <typename T>
+T LinesDependent(const std::vector<Joint<T>>& joints, const T& size_m) {
+  const auto count = static_cast<Eigen::Index>(joints.size());
+  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> lines(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Joint<T>& joint = joints[static_cast<size_t>(i)];
+    const Vector3<T> moment = joint.from_origin_m.cross(joint.direction) / size_m;
+    for (Eigen::Index k = 0; k < 3; ++k) lines(i, k) = joint.direction[k];
+    for (Eigen::Index k = 3; k < count; ++k) lines(i, k) = moment[count == 4 ? 2 : k - 3];
+  }
+  return DeterminantOf<T>(lines);
+}
+
+// The condition that changes its sign in a Type 2 singularity, of as many legs as the platform needs; nothing
+// for another number of them, and for two directions of a translation, whose condition has no sign.
+template <typename T>
+std::optional<T> SignedCondition(PlatformMotion motion, RobotKind kind, const std::vector<Joint<T>>& joints,
+                                 const T& size_m) {
+  const size_t count = joints.size();
+  const bool is_hidden = kind == RobotKind::kHidden;
+  if (motion == PlatformMotion::kPlanarPoint && count == 2)
+    return joints[0].direction.cross(joints[1].direction)[2];
+  if (motion == PlatformMotion::kPlanar && count == 3) return LinesMeet(joints, size_m, is_hidden);
+  if (is_hidden) {
+    if (motion == PlatformMotion::kSchoenflies && count == 2) return Schoenflies(joints, size_m);
+    if (motion == PlatformMotion::kSpatial && count == 3) return PlanesMeet(joints, size_m);
+    return std::nullopt;
+  }
+  if (motion == PlatformMotion::kTranslation && count == 3)
+    return Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
+  const bool has_all = (motion == PlatformMotion::kSpatial && count == 6) ||
+                       (motion == PlatformMotion::kSchoenflies && count == 4);
+  return has_all ? std::optional<T>(LinesDependent(joints, size_m)) : std::nullopt;
 }
 
 }  // namespace legible::singularity_geometry

@@ -24,12 +24,6 @@ bool IsPlanar(PlatformMotion motion) {
   return motion == PlatformMotion::kPlanarPoint || motion == PlatformMotion::kPlanar;
 }
 
-bool HasOnlyRevolutesAndPrismatics(const LegChain& chain) {
-  return std::all_of(chain.begin(), chain.end(), [](const ChainJoint& joint) {
-    return joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic;
-  });
-}
-
 LegFields FieldsOfLeg(const RobotLeg& leg) {
   try {
     return FieldsOf(leg.chain);
@@ -39,7 +33,7 @@ LegFields FieldsOfLeg(const RobotLeg& leg) {
 }
 
 void CheckChain(PlatformMotion motion, const LegChain& chain) {
-  const bool is_planar = HasOnlyRevolutesAndPrismatics(chain);
+  const bool is_planar = IsPlanar(chain);
   if (IsPlanar(motion) == is_planar) return;
   Throw("chain: a leg " + ToText(chain) +
         (is_planar ? " belongs to a planar robot" : " does not move in a plane"));
@@ -61,7 +55,7 @@ void CheckAxes(const RobotLeg& leg, const LegFields& fields) {
   if (fields.second_axis) CheckUnit("second_axis", leg.second_axis);
   if (!fields.zero_direction) return;
   CheckUnit("zero_direction", leg.zero_direction);
-  const bool turns_about_first_axis = !HasOnlyRevolutesAndPrismatics(leg.chain);
+  const bool turns_about_first_axis = !IsPlanar(leg.chain);
   if (turns_about_first_axis && !(std::abs(leg.first_axis.dot(leg.zero_direction)) < kUnitTolerance))
     Throw("zero_direction does not lie across first_axis");
 }
@@ -131,7 +125,7 @@ LegFields FieldsOf(const LegChain& chain) {
   const bool starts_on_rail = chain.front().type == JointType::kPrismatic;
   const bool starts_with_revolute = chain.front().type == JointType::kRevolute;
   LegFields fields;
-  fields.first_axis = starts_on_rail || (starts_with_revolute && !HasOnlyRevolutesAndPrismatics(chain));
+  fields.first_axis = starts_on_rail || (starts_with_revolute && !IsPlanar(chain));
   fields.zero_direction = has_arm || ReadsAngle(chain);
   fields.second_axis = segment.direction != DirectionOf::kLeg;
   fields.arm_m = has_arm;
