@@ -54,7 +54,7 @@ async function checkNumbers(page, found, index) {
 }
 
 async function choose(page, index) {
-  const button = page.locator(`#chooser [data-pose="${index}"]`);
+  const button = page.locator(`#chooser [data-choice="${index}"]`);
   if (await button.count()) await button.click();
   else await page.locator("#chooser select").selectOption(String(index));
   await page.waitForFunction((wanted) => document.body.dataset.pose === String(wanted), index);

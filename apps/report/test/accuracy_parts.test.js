@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pointsOf, scaleType } from "../src/accuracy/comparison.js";
 import { definitionOf } from "../src/accuracy/indices.js";
-import { STATE, cellsOf, colorScale, edgesOf, stripsOf } from "../src/accuracy/map_grid.js";
+import { STATE, cellsOf, colorScale, edgesOf, stripsOf } from "../src/shared/map_grid.js";
 import { largestContributions } from "../src/accuracy/sources.js";
 import { metresPer, pretty, radiansPer, unitsOf } from "../src/accuracy/units.js";
 import { tabSeparated } from "../src/shared/copy_table.js";

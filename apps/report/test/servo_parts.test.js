@@ -7,8 +7,8 @@ import { deviations, straightWay } from "../src/servo/path_geometry.js";
 import { viewOf } from "../src/servo/path_view.js";
 import { shortTime, unitOf } from "../src/servo/quantities.js";
 import { limitSpans, mergedSpans, periodOf } from "../src/servo/spans.js";
-import { sparse, thinned } from "../src/servo/thinning.js";
-import { logDomain, logTicks } from "../src/servo/time_plot.js";
+import { sparse, thinnedCurve } from "../src/shared/thinning.js";
+import { logDomain, logTicks } from "../src/shared/time_plot.js";
 import { barsOf, quantile } from "../src/servo/times.js";
 import { leavesOf } from "../src/shared/document.js";
 import { START, screenAxes } from "../src/shared/turntable.js";
@@ -23,7 +23,7 @@ test("a thinned curve has few points, keeps every column's extremes and stays in
   const values = range(count).map((index) => Math.sin(index / 50));
   values[1234] = 7;
   values[4321] = -5;
-  const points = thinned(range(count), values, 100);
+  const points = thinnedCurve(range(count), values, 100);
   assert.ok(points.length <= 500);
   assert.deepEqual(points[0], { time: 0, value: values[0] });
   assert.deepEqual(points[points.length - 1], { time: count - 1, value: values[count - 1] });
@@ -40,10 +40,10 @@ test("a thinned curve has few points, keeps every column's extremes and stays in
 
 test("a gap stays a gap when a curve is thinned, and short curves stay as they are", () => {
   const values = range(1000).map((index) => (index >= 400 && index < 420 ? null : index));
-  const points = thinned(range(1000), values, 50);
+  const points = thinnedCurve(range(1000), values, 50);
   assert.ok(points.some(({ time, value }) => value === null && time >= 400 && time < 420));
   assert.ok(points.filter(({ value }) => value === null).every(({ time }) => time >= 400 && time < 420));
-  assert.deepEqual(thinned([0, 1], [1, undefined], 50), [
+  assert.deepEqual(thinnedCurve([0, 1], [1, undefined], 50), [
     { time: 0, value: 1 },
     { time: 1, value: null },
   ]);

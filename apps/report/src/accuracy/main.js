@@ -1,8 +1,8 @@
 // Fills the page from its embedded data; parts that depend on the pose are filled again when another one is chosen.
+import { chooser } from "../shared/chooser.js";
 import { embeddedData, renderHeader, renderSection, showSection } from "../shared/page.js";
 import { renderAbout } from "./about.js";
 import { renderAllPoses } from "./all_poses.js";
-import { poseChooser } from "./chooser.js";
 import { hasComparison, renderComparison } from "./comparison.js";
 import { renderErrors } from "./errors.js";
 import { renderIndices } from "./indices.js";
@@ -10,6 +10,7 @@ import { renderIntersection } from "./intersection.js";
 import { hasMaps, renderMaps } from "./maps.js";
 import { RobotView, canDrawRobot } from "./robot_view.js";
 import { renderSources } from "./sources.js";
+import { statusOf } from "./status.js";
 import { renderSummary } from "./summary.js";
 import { renderWorkspace } from "./workspace.js";
 
@@ -72,7 +73,11 @@ class Page {
 
   addChooser() {
     if (this.poses.length < 2) return;
-    this.chooser = poseChooser(this.poses, this.choose);
+    const choices = this.poses.map((pose, index) => {
+      const { level, label } = statusOf(pose);
+      return { name: pose.name ?? `${index + 1}`, level, state: label };
+    });
+    this.chooser = chooser("Pose", choices, this.choose);
     byId("chooser").replaceChildren(this.chooser.element);
     byId("chooser").hidden = false;
   }

@@ -36,13 +36,14 @@ export class RobotView {
   }
 
   renderInto(section) {
-    const hint = html(
-      "p",
-      { class: "muted hint" },
-      "Drag to turn. Click the picture, then: wheel or + and − to zoom, arrow keys to turn, double click or 0 for the " +
-        "first view.",
+    const picture = html(
+      "div",
+      null,
+      this.toolbar(),
+      this.turnable.element,
+      this.caption,
+      this.turnable.hint(),
     );
-    const picture = html("div", null, this.toolbar(), this.turnable.element, this.caption, hint);
     append(section, html("div", { class: "view" }, picture, this.side));
   }
 

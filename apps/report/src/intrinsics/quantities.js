@@ -2,15 +2,7 @@
 import { valueAt } from "../shared/document.js";
 import { isNumber, tick } from "../shared/format.js";
 import { measured } from "../shared/numbers.js";
-
-// scale takes SI to the unit
-const PX = { unit: "px", scale: 1 };
-const METRES = { unit: "m", scale: 1 };
-const MM = { unit: "mm", scale: 1e3 };
-const DEGREES = { unit: "°", scale: 180 / Math.PI };
-const SECONDS = { unit: "s", scale: 1 };
-const PERCENT = { unit: "%", scale: 100 };
-const PURE = { unit: "", scale: 1 };
+import { DEGREES, METRES, MM, PERCENT, PURE, PX, SECONDS } from "../shared/quantities.js";
 
 const OF_PATH = [
   [/\.[fc][xy]$/, PX],

@@ -2,7 +2,7 @@
 import { append, figure, html, muted } from "../shared/dom.js";
 import { isNumber } from "../shared/format.js";
 import { COLOR } from "../shared/plots.js";
-import { timePlot } from "./time_plot.js";
+import { timePlot } from "../shared/time_plot.js";
 
 const HEIGHT = 210;
 const PANELS = [

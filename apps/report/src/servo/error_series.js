@@ -1,7 +1,8 @@
 // The errors of a run over its cycles, and how fast they fall. No page elements here.
 import { quat, vec3 } from "gl-matrix";
 import { isNumber } from "../shared/format.js";
-import { MM, MRAD, PX, ofError } from "./quantities.js";
+import { MM, MRAD, PX } from "../shared/quantities.js";
+import { ofError } from "./quantities.js";
 
 // An error must be this many times what is left at the end to count for the rate.
 const ABOVE_FLOOR = 5;

@@ -2,11 +2,11 @@
 import { copyable } from "../shared/copy_table.js";
 import { append, checkbox, figure, html, muted, table } from "../shared/dom.js";
 import { MISSING, isNumber, significant } from "../shared/format.js";
+import { legColor } from "../shared/leg_colors.js";
 import { COLOR, key } from "../shared/plots.js";
+import { timePlot } from "../shared/time_plot.js";
 import { errorSeries, exponentialRate } from "./error_series.js";
-import { legColor } from "./leg_colors.js";
 import { periodOf } from "./spans.js";
-import { timePlot } from "./time_plot.js";
 
 const TALL = 320;
 const SMALL = 210;

@@ -3,11 +3,12 @@ import * as Plot from "@observablehq/plot";
 import { copyable } from "../shared/copy_table.js";
 import { append, figure, html, muted, table } from "../shared/dom.js";
 import { capitalized, fixed, isNumber, significant } from "../shared/format.js";
+import { legColor } from "../shared/leg_colors.js";
 import { COLOR, TIP, key, plot, responsive } from "../shared/plots.js";
-import { legColor } from "./leg_colors.js";
-import { MM, MM_PER_S } from "./quantities.js";
+import { MM } from "../shared/quantities.js";
+import { timeAxis, timePlot } from "../shared/time_plot.js";
+import { MM_PER_S } from "./quantities.js";
 import { limitSpans, mergedSpans } from "./spans.js";
-import { timeAxis, timePlot } from "./time_plot.js";
 
 const TALL = 300;
 const SMALL = 190;

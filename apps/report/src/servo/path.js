@@ -2,10 +2,10 @@
 import { append, figure, html, muted } from "../shared/dom.js";
 import { isNumber, significant } from "../shared/format.js";
 import { COLOR, key } from "../shared/plots.js";
+import { MM } from "../shared/quantities.js";
+import { timePlot } from "../shared/time_plot.js";
 import { centersOf, deviations, straightWay } from "./path_geometry.js";
 import { PathView } from "./path_view.js";
-import { MM } from "./quantities.js";
-import { timePlot } from "./time_plot.js";
 
 const HEIGHT = 220;
 

@@ -5,13 +5,14 @@ import { html, svg, table } from "../shared/dom.js";
 import { MISSING, fixed, isNumber, significant } from "../shared/format.js";
 import { paintAxes, paintGhost, paintNumbers, paintRobot, path } from "../shared/paint_robot.js";
 import { COLOR, key } from "../shared/plots.js";
+import { MM } from "../shared/quantities.js";
 import { robotAt } from "../shared/robot_geometry.js";
 import { paintScaleBars } from "../shared/scale_bars.js";
+import { sparse } from "../shared/thinning.js";
 import { TurnableView } from "../shared/turnable_view.js";
 import { START, enclosing, projection, screenAxes } from "../shared/turntable.js";
 import { centersOf, deviations, firstOf, lastOf, straightWay } from "./path_geometry.js";
-import { MM, MM_PER_S, ofError } from "./quantities.js";
-import { sparse } from "./thinning.js";
+import { MM_PER_S, ofError } from "./quantities.js";
 
 // Of the scene's radius.
 const AXIS_LENGTH = 0.3;
@@ -65,14 +66,16 @@ export class PathView {
   }
 
   layout() {
-    const hint = html(
-      "p",
-      { class: "muted hint" },
-      "Drag to turn. Click the picture, then: wheel or + and − to zoom, arrow keys to turn, double click or 0 for the " +
-        "first view.",
-    );
     const controls = html("div", { class: "toolbar" }, this.turnable.buttons(), this.closeUpSwitch());
-    const picture = html("div", null, controls, this.turnable.element, this.timeBar(), this.legend(), hint);
+    const picture = html(
+      "div",
+      null,
+      controls,
+      this.turnable.element,
+      this.timeBar(),
+      this.legend(),
+      this.turnable.hint(),
+    );
     return html("div", { class: "view" }, picture, this.side);
   }
 

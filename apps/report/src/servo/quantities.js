@@ -1,15 +1,11 @@
 // Quantities of a run in the units that people read: millimetres, milliradians, milliseconds.
 import { valueAt } from "../shared/document.js";
 import { measured } from "../shared/numbers.js";
+import { MM, MRAD, PURE, PX, SECONDS } from "../shared/quantities.js";
 
 // scale takes SI to the unit
-export const MM = { unit: "mm", scale: 1e3 };
 export const MM_PER_S = { unit: "mm/s", scale: 1e3 };
-export const MRAD = { unit: "mrad", scale: 1e3 };
-export const PX = { unit: "px", scale: 1 };
-export const SECONDS = { unit: "s", scale: 1 };
-export const PER_SECOND = { unit: "1/s", scale: 1 };
-export const PURE = { unit: "", scale: 1 };
+const PER_SECOND = { unit: "1/s", scale: 1 };
 const MS = { unit: "ms", scale: 1e3 };
 const MICROSECONDS = { unit: "µs", scale: 1e6 };
 

@@ -23,7 +23,8 @@ export function outline(points) {
   return hull ? hull.map(([x, y]) => ({ x, y })) : points;
 }
 
-// robot: of robotAt; radius: the scene's.
+// robot: of robotAt, a leg's `segments` [{from, to, radius, color?}] instead of a straight one where it has them;
+// radius: the scene's.
 export function paintRobot(robot, screen, radius) {
   const joints = {
     base: robot.legs.map(({ base }) => base),
@@ -61,18 +62,23 @@ function plate(name, joints, normal, screen, radius) {
   );
 }
 
+const segmentsOf = ({ base, platform, radius, segments }) =>
+  segments ?? [{ from: base, to: platform, radius }];
+
 function paintLegs(legs, screen, radius) {
-  const parts = legs.flatMap((leg, index) => legParts(leg, index, screen, radius));
-  const gradients = legs.map((leg, index) => cylinderShade(leg, index, screen, radius));
+  const segments = legs.flatMap(segmentsOf);
+  const parts = segments.flatMap((segment, index) => segmentParts(segment, index, screen, radius));
+  const gradients = segments.map((segment, index) => cylinderShade(segment, index, screen, radius));
   parts.sort((a, b) => a.depth - b.depth);
   return [svg("defs", null, gradients, ballShade()), ...parts.map(({ element }) => element)];
 }
 
-const drawnRadius = (leg, screen, radius) => Math.max(leg.radius, THINNEST_LEG * radius) * screen.scale;
+const drawnRadius = (segment, screen, radius) =>
+  Math.max(segment.radius, THINNEST_LEG * radius) * screen.scale;
 
-function legParts(leg, index, screen, radius) {
-  const ends = [screen.at(leg.base), screen.at(leg.platform)];
-  const width = drawnRadius(leg, screen, radius);
+function segmentParts(segment, index, screen, radius) {
+  const ends = [screen.at(segment.from), screen.at(segment.to)];
+  const width = drawnRadius(segment, screen, radius);
   const between = (share) => mixed(ends[0], ends[1], share);
   const pieces = Array.from({ length: PIECES }, (_, piece) => ({
     depth: between((piece + 0.5) / PIECES).depth,
@@ -85,7 +91,7 @@ function legParts(leg, index, screen, radius) {
     }),
   }));
   const balls = ends.map(({ x, y, depth }) => ({
-    depth: depth + 1.5 * leg.radius,
+    depth: depth + 1.5 * segment.radius,
     element: svg("circle", {
       class: "ball",
       cx: x.toFixed(1),
@@ -103,13 +109,15 @@ const mixed = (a, b, share) => ({
 });
 
 const stops = (entries) =>
-  entries.map(([offset, name]) => svg("stop", { offset, style: `stop-color:var(--metal-${name})` }));
+  entries.map(([offset, color]) => svg("stop", { offset, style: `stop-color:${color}` }));
 
-// Light across a cylinder, from the upper left of the screen.
-function cylinderShade(leg, index, screen, radius) {
-  const [a, b] = [screen.at(leg.base), screen.at(leg.platform)];
+const metal = (name) => `var(--metal-${name})`;
+
+// Light across a cylinder, from the upper left of the screen; a coloured one keeps its colour but for the gloss.
+function cylinderShade(segment, index, screen, radius) {
+  const [a, b] = [screen.at(segment.from), screen.at(segment.to)];
   const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
-  const width = drawnRadius(leg, screen, radius);
+  const width = drawnRadius(segment, screen, radius);
   let across = { x: (-(b.y - a.y) / length) * width, y: ((b.x - a.x) / length) * width };
   if (across.x + across.y < 0) across = { x: -across.x, y: -across.y };
   return svg(
@@ -123,10 +131,10 @@ function cylinderShade(leg, index, screen, radius) {
       y2: a.y + across.y,
     },
     stops([
-      [0, "mid"],
-      [0.3, "light"],
-      [0.65, "mid"],
-      [1, "dark"],
+      [0, segment.color ?? metal("mid")],
+      [0.3, metal("light")],
+      [0.65, segment.color ?? metal("mid")],
+      [1, segment.color ?? metal("dark")],
     ]),
   );
 }
@@ -136,9 +144,9 @@ const ballShade = () =>
     "radialGradient",
     { id: "ball", cx: 0.35, cy: 0.3, r: 0.75 },
     stops([
-      [0, "light"],
-      [0.5, "mid"],
-      [1, "dark"],
+      [0, metal("light")],
+      [0.5, metal("mid")],
+      [1, metal("dark")],
     ]),
   );
 

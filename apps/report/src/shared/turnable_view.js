@@ -33,6 +33,15 @@ export class TurnableView {
     ];
   }
 
+  hint() {
+    return html(
+      "p",
+      { class: "muted hint" },
+      "Drag to turn. Click the picture, then: wheel or + and − to zoom, arrow keys to turn, double click or 0 for the " +
+        "first view.",
+    );
+  }
+
   fit(width) {
     if (width < 1) return;
     const height = Math.max(HEIGHT.least, Math.min(HEIGHT.most, Math.round(this.share * width)));

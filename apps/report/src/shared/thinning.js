@@ -1,9 +1,9 @@
 // Fewer points for drawings, with every extreme kept. No page elements here.
-import { isNumber } from "../shared/format.js";
+import { isNumber } from "./format.js";
 
 // The points [{time, value}] of a curve that a drawing with so many columns needs: of each column the first, the last,
 // the smallest and the largest, in order, and one point without a value where there is a gap.
-export function thinned(times, values, columns) {
+export function thinnedCurve(times, values, columns) {
   const points = times.map((time, index) => ({
     time,
     value: isNumber(values[index]) ? values[index] : null,

@@ -1,9 +1,9 @@
 // Curves over the time of the run.
 import * as Plot from "@observablehq/plot";
-import { isNumber, significant, tick, withUnit } from "../shared/format.js";
-import { COLOR, TIP, plot, responsive } from "../shared/plots.js";
-import { roundBelow } from "../shared/scale_bars.js";
-import { thinned } from "./thinning.js";
+import { isNumber, significant, tick, withUnit } from "./format.js";
+import { COLOR, TIP, plot, responsive } from "./plots.js";
+import { roundBelow } from "./scale_bars.js";
+import { thinnedCurve } from "./thinning.js";
 
 // A curve keeps its extremes in each of this many columns of the drawing.
 const PIXELS_A_COLUMN = 2;
@@ -11,16 +11,16 @@ const LOG_DECADES = 6; // at most
 const FEW_DECADES = 50; // most over least
 const MARGINS = { marginLeft: 52, marginRight: 12, marginTop: 22, marginBottom: 36 };
 
-// run: {times, moment}; curves: [{label, color, values, width?, dash?, faint?}]; options: {description, label (of y), unit,
-// height, log, zero, domain, levels: [{value, label, color, dash}], spans: [{from, to}]}. Returns the place of the plot,
-// which is drawn once that is as wide as it is going to be.
+// run: {times, moment?: of the run, to be marked and chosen}; curves: [{label, color, values, width?, dash?, faint?}];
+// options: {description, label (of y), unit, height, log, zero, domain, levels: [{value, label, color, dash}], spans:
+// [{from, to}]}. Returns the place of the plot, which is drawn once that is as wide as it is going to be.
 export function timePlot(run, curves, options) {
   const place = responsive((width) => {
     const drawing = draw(run, curves, options, width);
-    run.moment.markIn(drawing);
+    run.moment?.markIn(drawing);
     return drawing;
   });
-  place.classList.add("over-time");
+  if (run.moment) place.classList.add("choosable");
   place.style.minHeight = `${options.height}px`;
   return place;
 }
@@ -58,7 +58,7 @@ const tipOf = ({ curve, time, value }, unit) =>
   `${curve.label}: ${withUnit(significant(value), unit)}\nat ${significant(time)} s`;
 
 const rowsOf = (times, curve, columns, log) =>
-  thinned(times, curve.values, columns).map(({ time, value }) => ({
+  thinnedCurve(times, curve.values, columns).map(({ time, value }) => ({
     curve,
     time,
     value: log && !(value > 0) ? null : value,

@@ -1,8 +1,8 @@
 // A slice of the workspace as a grid of cells. No page elements here.
-import { colorScaleOf } from "../shared/color_map.js";
-import { isNumber } from "../shared/format.js";
+import { colorScaleOf } from "./color_map.js";
+import { isNumber } from "./format.js";
 
-export const STATE = { fine: 0, outsideJointRanges: 1, singular: 2 };
+export const STATE = { fine: 0, outsideJointRanges: 1, singular: 2, outOfReach: 3 };
 const SHARE_FOR_ITSELF = 0.05;
 
 // Edges of the cells around equally spaced values: [first edge, last edge].
