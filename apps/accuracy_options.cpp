@@ -153,18 +153,10 @@ void AddOutputOptions(CLI::App& command, AccuracySettings& settings) {
           "Unit of errors of rotation in the output (indices are\nalways per radian); without it deg in "
           "tables and\n"
           "pages, rad for programs");
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&settings](const std::string& format) {
-            const std::vector<std::string> names = {"table", "json", "csv",
-                                                    "html"};  // in the order of the enum
-            DemandOneOf("--format", format, names);
-            settings.format =
-                static_cast<AccuracyFormat>(std::find(names.begin(), names.end(), format) - names.begin());
-          },
-          "A table for people, one JSON document, a row a pose\nfor spreadsheets, or a page to look at")
-      ->type_name("table|json|csv|html");
+  AddFormat(
+      command, {"table", "json", "csv", "html"},  // in the order of the enum
+      [&settings](size_t format) { settings.format = static_cast<AccuracyFormat>(format); },
+      "A table for people, one JSON document, a row a pose\nfor spreadsheets, or a page to look at");
   command.add_option("--out", settings.out, "File for the result instead of standard output")
       ->check([](const std::string& text) { return text.empty() ? "name a file" : std::string(); })
       ->type_name("FILE");

@@ -72,9 +72,6 @@ json StatesJson(const ErrorMap& map) {
   return rows;
 }
 
-// Four digits are enough for a picture, and keep the page small.
-json Rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
-
 template <typename F>
 json QuantityJson(const ErrorMap& map, const std::string& key, const std::string& label,
                   const std::string& unit, const F& value) {

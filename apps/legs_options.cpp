@@ -35,7 +35,8 @@ Exit codes:
 Examples:
   legible legs datasets/robots/quattro.yaml --from "0 0 -0.75 0 0 0" --to "-0.2 0 -0.56 0 0 0"
   legible legs result/model.yaml --to "0.02 0.01 0.33 0 0 0.6" --noise 0.05
-  legible legs datasets/robots/quattro.yaml --to "-0.2 0 -0.56 0 0 0" --legs 1,4 --legs 2,3 --format json)";
+  legible legs datasets/robots/quattro.yaml --to "-0.2 0 -0.56 0 0 0" --legs 1,4 --legs 2,3 --format json
+  legible legs result/model.yaml --to "0.02 0.01 0.33 0 0 0.6" --format html --out legs.html)";
 
 void AddPose(CLI::App& command, const std::string& name, std::optional<Vector6d>& pose,
              const std::string& description) {
@@ -70,7 +71,10 @@ const CLI::App* AddLegsCommand(CLI::App& program, LegsSettings& settings) {
       *command, "--gain", "PER_S",
       [&settings](const std::string& text) { settings.gain_per_s = ParsePositive(text); },
       fmt::format("Of the simulated servo; {:g} without it", settings.gain_per_s));
-  AddTableOrJson(*command, settings.prints_json, "A table to read, or all numbers as JSON");
+  AddFormat(
+      *command, {"table", "json", "html"},  // in the order of the enum
+      [&settings](size_t format) { settings.format = static_cast<LegsFormat>(format); },
+      "A table to read, all numbers as JSON, or a page to look\nat");
   command->add_option("--out", settings.out, "File for it; standard output without it")
       ->check([](const std::string& text) { return text.empty() ? "name a file" : std::string(); })
       ->type_name("FILE");

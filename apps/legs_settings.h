@@ -14,13 +14,15 @@ namespace legible {
 // paper.
 inline constexpr double kAssumedDirectionNoise_rad = 0.1 * kDegree_rad;
 
+enum class LegsFormat { kTable, kJson, kHtml };
+
 struct LegsSettings {
   std::filesystem::path model;
   std::optional<Vector6d> from, to;        // x y z (m) and a rotation vector (rad); else the robot's home
   std::vector<std::vector<int>> leg_sets;  // from 0; empty: every set
   double noise_rad = kAssumedDirectionNoise_rad;
   double gain_per_s = 0.8;
-  bool prints_json = false;
+  LegsFormat format = LegsFormat::kTable;
   std::optional<std::filesystem::path> out;  // else standard output
 };
 

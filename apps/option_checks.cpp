@@ -72,12 +72,19 @@ std::vector<CLI::Option*> AddBoardFitOptions(CLI::App& command, BoardFitSettings
                        "Every corner of the board counts alike, however far\noff: no weights, no outliers")};
 }
 
-void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description) {
-  const auto take = [&prints_json](const std::string& format) {
-    DemandOneOf("--format", format, {"table", "json"});
-    prints_json = format == "json";
+void AddFormat(CLI::App& command, const std::vector<std::string>& names,
+               const std::function<void(size_t)>& take, const std::string& description) {
+  const auto take_name = [names, take](const std::string& format) {
+    DemandOneOf("--format", format, names);
+    take(static_cast<size_t>(std::find(names.begin(), names.end(), format) - names.begin()));
   };
-  command.add_option_function<std::string>("--format", take, description)->type_name("table|json");
+  command.add_option_function<std::string>("--format", take_name, description)
+      ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description) {
+  AddFormat(
+      command, {"table", "json"}, [&prints_json](size_t format) { prints_json = format == 1; }, description);
 }
 
 void AddThreadsOption(CLI::App& command, int& threads) {

@@ -38,6 +38,10 @@ void AddKnownOption(CLI::App& command, std::vector<std::pair<std::string, std::o
 // "--board-warp" and "--all-corners".
 std::vector<CLI::Option*> AddBoardFitOptions(CLI::App& command, BoardFitSettings& settings);
 
+// "--format" with these names; `take` gets the place of the one named among them.
+void AddFormat(CLI::App& command, const std::vector<std::string>& names,
+               const std::function<void(size_t)>& take, const std::string& description);
+
 // "--format table|json".
 void AddTableOrJson(CLI::App& command, bool& prints_json, const std::string& description);
 

@@ -35,5 +35,6 @@ std::string RenderCalibrationPage(const nlohmann::json& data) { return Render(Ca
 std::string RenderAccuracyPage(const nlohmann::json& data) { return Render(AccuracyPage(), data); }
 std::string RenderServoPage(const nlohmann::json& data) { return Render(ServoPage(), data); }
 std::string RenderIntrinsicsPage(const nlohmann::json& data) { return Render(IntrinsicsPage(), data); }
+std::string RenderLegsPage(const nlohmann::json& data) { return Render(LegsPage(), data); }
 
 }  // namespace legible

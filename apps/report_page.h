@@ -89,4 +89,18 @@ std::string RenderServoPage(const nlohmann::json& data);
 //   options    {name: value}
 std::string RenderIntrinsicsPage(const nlohmann::json& data);
 
+// The page of `legible legs` with `data` embedded as JSON; a part without data is left out. SI units, points
+// in base; legs count from 1. Its members, all optional:
+//   title, program_version, model   texts
+//   document   what `legible legs --format json` prints
+//   robot      {legs: [{base_joint_m, radius_m}]}
+//   places     {from, to: a place of each leg; modes: of each of document.sets null or, of each of its
+//   assembly
+//              modes, the goal first, a place of each leg}. A place: {start_m, platform_joint_m}, the start
+//              of the seen segment, null where the leg does not reach the pose, and the platform's joint. In
+//              a mode the legs of the set bend so that they point as at the goal, others as at home.
+//   simulations   of each of document.sets null or {time_s, position_from_goal_m, rotation_from_goal_rad,
+//              errors_rad: [one list a leg of the set]}: samples of the simulated servo
+std::string RenderLegsPage(const nlohmann::json& data);
+
 }  // namespace legible

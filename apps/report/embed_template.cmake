@@ -1,7 +1,7 @@
 # Joins one page's HTML, the styles and the bundle, cut in two where the data go, and writes a C++ source whose
 # assembler includes both parts byte by byte.
 # Called with -DSOURCE=<this folder> -DBUILD=<its build folder, with node_modules and the bundle> and
-# -DPAGE=<calibration|accuracy|servo|intrinsics> -DFUNCTION=<the function of page_template.h to define>
+# -DPAGE=<calibration|accuracy|servo|intrinsics|legs> -DFUNCTION=<the function of page_template.h to define>
 # -DPACKAGES=<the npm packages in the bundle, separated by commas>.
 
 set(room ${SOURCE}/src/${PAGE})

@@ -14,5 +14,6 @@ PageTemplate CalibrationPage();
 PageTemplate AccuracyPage();
 PageTemplate ServoPage();
 PageTemplate IntrinsicsPage();
+PageTemplate LegsPage();
 
 }  // namespace legible

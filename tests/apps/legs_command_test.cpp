@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "datasets/model_file.h"
@@ -80,6 +82,56 @@ TEST(LegsCommand, EndsWithoutAChoiceWhereNoSetCanBeControlledAndSaysWhy) {
   const json both = SetOf(json::parse(run.out), {1, 2});
   EXPECT_THAT(both["why"].get<std::string>(), HasSubstr("rails of the P joints are parallel"));
   EXPECT_EQ(both["by_lines"]["status"], "controllable");
+}
+
+// What the page of a run embeds.
+json PageData(const std::string& page) {
+  const std::string opening = R"(<script type="application/json" id="data">)";
+  const size_t start = page.find(opening) + opening.size();
+  return json::parse(page.substr(start, page.find("</script", start) - start));
+}
+
+Eigen::Vector3d SegmentOf(const json& place) {
+  const auto start = place.at("start_m").get<std::vector<double>>();
+  const auto end = place.at("platform_joint_m").get<std::vector<double>>();
+  return Eigen::Vector3d(end[0], end[1], end[2]) - Eigen::Vector3d(start[0], start[1], start[2]);
+}
+
+// The rods are 0.825 m long, and in another mode those that are seen are parallel to where they are at the
+// goal, also past a stretched leg.
+TEST(LegsCommand, ThePageDrawsSeenLegsOfEveryModeAsAtTheGoal) {
+  const ProgramRun run = Legs({kQuattro, "--from", kStart, "--to", kGoal, "--format", "html"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  const json data = PageData(run.out);
+  EXPECT_EQ(data["document"], Document({kQuattro, "--from", kStart, "--to", kGoal}));
+  const double digits_m = 2e-3;  // of a picture
+  int modes_drawn = 0;
+  for (size_t i = 0; i < data["document"]["sets"].size(); ++i) {
+    if (data["places"]["modes"][i].is_null()) continue;
+    for (const json& places : data["places"]["modes"][i])
+      for (const int leg : data["document"]["sets"][i]["legs"]) {
+        const size_t place = static_cast<size_t>(leg) - 1;
+        const Eigen::Vector3d rod = SegmentOf(places[place]);
+        EXPECT_NEAR(rod.norm(), 0.825, digits_m);
+        EXPECT_LT((rod - SegmentOf(data["places"]["to"][place])).norm(), digits_m) << "set " << i;
+        ++modes_drawn;
+      }
+  }
+  EXPECT_GT(modes_drawn, 20);
+}
+
+TEST(LegsCommand, ThePagesCurvesBeginAtTheStartAndEndWhereTheSimulationDoes) {
+  const json data = PageData(Legs({kQuattro, "--from", kStart, "--to", kGoal, "--format", "html"}).out);
+  const json& curves = data["simulations"][0];
+  const json& end = data["document"]["sets"][0]["simulation"];
+  ASSERT_FALSE(curves.is_null());
+  EXPECT_LE(curves["time_s"].size(), 300U);
+  EXPECT_NEAR(curves["position_from_goal_m"].front().get<double>(), std::hypot(0.2, 0.19), 1e-4);
+  EXPECT_NEAR(curves["time_s"].back().get<double>(), end["time_s"].get<double>(), 5e-3);
+  EXPECT_NEAR(curves["position_from_goal_m"].back().get<double>(), end["position_from_goal_m"].get<double>(),
+              1e-7);
+  EXPECT_EQ(curves["errors_rad"].size(), data["document"]["choice"].size());
+  for (const json& errors : curves["errors_rad"]) EXPECT_EQ(errors.size(), curves["time_s"].size());
 }
 
 TEST(LegsCommand, LeavesOutLegsThatTheModelsCameraDoesNotSee) {

@@ -111,7 +111,12 @@ INSTANTIATE_TEST_SUITE_P(
              RenderIntrinsicsPage,
              {"Verdict", "Parameters", "Uncertainty over the image",
               "Cross-validation: two halves of the views", "Residuals", "Pictures with found corners",
-              "Coverage, and the view to add next", "What was left out", "Options, provenance, time"}}),
+              "Coverage, and the view to add next", "What was left out", "Options, provenance, time"}},
+        Page{"Legs",
+             RenderLegsPage,
+             {"Verdict", "Sets of legs", "The chosen set", "Other assembly modes of the chosen set",
+              "Simulated servo of the chosen set", "Maps around the goal", "The legs, and the robot itself",
+              "Definitions and provenance"}}),
     [](const auto& page) { return page.param.name; });
 
 TEST(ReportPages, AreDifferentPages) {
@@ -119,6 +124,7 @@ TEST(ReportPages, AreDifferentPages) {
   EXPECT_THAT(RenderAccuracyPage(json::object()), HasSubstr("<title>Accuracy report</title>"));
   EXPECT_THAT(RenderServoPage(json::object()), HasSubstr("<title>Servo report</title>"));
   EXPECT_THAT(RenderIntrinsicsPage(json::object()), HasSubstr("<title>Intrinsics report</title>"));
+  EXPECT_THAT(RenderLegsPage(json::object()), HasSubstr("<title>Legs report</title>"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Fills the page from its embedded data; parts that depend on the pose are filled again when another one is chosen.
 import { chooser } from "../shared/chooser.js";
-import { embeddedData, renderHeader, renderSection, showSection } from "../shared/page.js";
+import { embeddedData, renderAnew, renderHeader, renderSection, showSection } from "../shared/page.js";
 import { renderAbout } from "./about.js";
 import { renderAllPoses } from "./all_poses.js";
 import { hasComparison, renderComparison } from "./comparison.js";
@@ -86,12 +86,8 @@ class Page {
     const pose = this.poses[index];
     document.body.dataset.pose = index;
     this.chooser?.mark(index);
-    for (const [id, render] of Object.entries(OF_POSE)) {
-      const section = byId(id);
-      if (section.hidden) continue;
-      section.replaceChildren(section.querySelector("h2"));
-      renderSection(id, render, { data: this.data, pose });
-    }
+    for (const [id, render] of Object.entries(OF_POSE))
+      if (!byId(id).hidden) renderAnew(id, render, { data: this.data, pose });
     if (this.robot) renderSection("robot", () => this.robot.show(pose), this.data);
   }
 }

@@ -3,7 +3,15 @@ import { vec3 } from "gl-matrix";
 import { copyable } from "../shared/copy_table.js";
 import { html, svg, table } from "../shared/dom.js";
 import { MISSING, fixed, isNumber, significant } from "../shared/format.js";
-import { paintAxes, paintGhost, paintNumbers, paintRobot, path } from "../shared/paint_robot.js";
+import {
+  paintAxes,
+  paintDot,
+  paintGhost,
+  paintName,
+  paintNumbers,
+  paintRobot,
+  path,
+} from "../shared/paint_robot.js";
 import { COLOR, key } from "../shared/plots.js";
 import { MM } from "../shared/quantities.js";
 import { robotAt } from "../shared/robot_geometry.js";
@@ -179,7 +187,7 @@ export class PathView {
       ...this.ends.map(([name, pose]) => paintGhost(platformAt(this.run.data.robot, pose), screen, name)),
       ...this.lines(screen),
       ...this.labels(screen),
-      ...(this.robot ? [dot(screen.at(this.robot.origin), "now")] : []),
+      ...(this.robot ? [paintDot(screen.at(this.robot.origin), "now", 5.5)] : []),
       ...paintScaleBars([bar], size),
     ];
   }
@@ -206,32 +214,14 @@ export class PathView {
     }
     const shown = places.map((place) => ({ ...place, ...screen.at(place.point) }));
     const middle = shown.reduce((sum, { x }) => sum + x, 0) / Math.max(1, shown.length);
-    return shown.flatMap(({ x, y, names }) => [dot({ x, y }, names[0]), label({ x, y }, names, x < middle)]);
+    return shown.flatMap(({ x, y, names }) => [
+      paintDot({ x, y }, names[0]),
+      paintName({ x, y }, names.join(", "), x < middle),
+    ]);
   }
 }
 
-// Beside a place, on the side that is away from the others.
-const label = ({ x, y }, names, isLeft) =>
-  svg(
-    "text",
-    {
-      class: "place",
-      x: (x + (isLeft ? -9 : 9)).toFixed(1),
-      y: (y - 7).toFixed(1),
-      "text-anchor": isLeft ? "end" : "start",
-    },
-    names.join(", "),
-  );
-
 const count = (value) => (isNumber(value) ? String(value) : MISSING);
-
-const dot = ({ x, y }, name) =>
-  svg("circle", {
-    class: `way-dot ${name}`,
-    cx: x.toFixed(1),
-    cy: y.toFixed(1),
-    r: name === "now" ? 5.5 : 4,
-  });
 
 const platformAt = (robot, pose) => robotAt(robot, pose).legs.map(({ platform }) => platform);
 

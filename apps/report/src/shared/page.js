@@ -18,6 +18,13 @@ export function renderSection(id, render, data) {
   }
 }
 
+// A section with its heading whose other contents are of something else than before.
+export function renderAnew(id, render, data) {
+  const section = document.getElementById(id);
+  section.replaceChildren(section.querySelector("h2"));
+  renderSection(id, render, data);
+}
+
 export function showSection(id, there) {
   document.getElementById(id).hidden = !there;
   document.querySelector(`nav a[href="#${id}"]`).hidden = !there;

@@ -193,3 +193,19 @@ export function arrow(start, end) {
 // The outline of a platform with its joints at these points.
 export const paintGhost = (joints, screen, name = "") =>
   svg("path", { class: `ghost ${name}`.trim(), d: path(outline(joints.map(screen.at))) });
+
+// A place in the scene, and its name beside it, to the left or the right.
+export const paintDot = ({ x, y }, name, radius = 4) =>
+  svg("circle", { class: `way-dot ${name}`, cx: x.toFixed(1), cy: y.toFixed(1), r: radius });
+
+export const paintName = ({ x, y }, text, isLeft) =>
+  svg(
+    "text",
+    {
+      class: "place",
+      x: (x + (isLeft ? -9 : 9)).toFixed(1),
+      y: (y - 7).toFixed(1),
+      "text-anchor": isLeft ? "end" : "start",
+    },
+    text,
+  );

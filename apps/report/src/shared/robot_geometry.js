@@ -13,9 +13,13 @@ export function robotAt(robot, place) {
     platform: inBase(place, platform),
     radius: radius ?? 0,
   }));
-  const up = { base: [0, 0, 1], platform: vec3.transformQuat([], [0, 0, 1], place.rotation_xyzw) };
-  return { legs, origin: place.translation_m, up };
+  return { ...frameAt(place), legs };
 }
+
+const frameAt = ({ rotation_xyzw: rotation, translation_m: origin }) => ({
+  origin,
+  up: { base: [0, 0, 1], platform: vec3.transformQuat([], [0, 0, 1], rotation) },
+});
 
 export function middle(points) {
   const sum = points.reduce((total, point) => vec3.add([], total, point), [0, 0, 0]);
@@ -35,3 +39,33 @@ export function movedBy(points, origin, [vx, vy, vz, ...turn], reach) {
 // A pose's free motion (in the units of the document) as a twist in SI.
 export const twistOf = (motion, metres, radians) =>
   motion.map((value, index) => (value ?? 0) * (index < 3 ? metres : radians));
+
+// The rotation vector (rad) of a unit quaternion, of an angle of at most half a turn.
+export function rotationVector([x, y, z, w]) {
+  const sine = Math.hypot(x, y, z);
+  const angle = 2 * Math.atan2(sine, Math.abs(w));
+  const scale = sine > 0 ? (Math.sign(w) || 1) * (angle / sine) : 0;
+  return [x, y, z].map((value) => value * scale + 0);
+}
+
+// The same as robotAt, of legs that bend: places [{start_m (of the last segment; null where the leg does not reach),
+// platform_joint_m}], in base, at the pose `place`. A leg that does not reach has no segments.
+export function robotAlong(robot, places, place) {
+  const legs = robot.legs.map(({ base_joint_m: base, radius_m: radius }, index) => {
+    const { start_m: start, platform_joint_m: platform } = places[index];
+    return {
+      base,
+      platform,
+      radius: radius ?? 0,
+      segments: start && segmentsAlong([base, start, platform], radius),
+    };
+  });
+  return { ...frameAt(place), legs };
+}
+
+// Between neighbours that are apart.
+const segmentsAlong = (points, radius) =>
+  points
+    .slice(1)
+    .map((to, index) => ({ from: points[index], to, radius: radius ?? 0 }))
+    .filter(({ from, to }) => vec3.distance(from, to) > 1e-9);

@@ -3,7 +3,7 @@ import * as Plot from "@observablehq/plot";
 import { max } from "d3";
 import { colorOptions, colorRamp, contours } from "./color_map.js";
 import { figure, html, svg } from "./dom.js";
-import { isNumber, sentence, significant, withUnit } from "./format.js";
+import { isNumber, sentence, significant, tick, withUnit } from "./format.js";
 import { STATE, cellsOf, colorScale, edgesOf, stripsOf } from "./map_grid.js";
 import { COLOR, TIP, plot, responsive } from "./plots.js";
 
@@ -49,8 +49,8 @@ function legend({ label, unit }, scale, states, further) {
       { class: "key" },
       entries,
       scale.clamped && html("span", null, "the brightest colour: this and more"),
-      further,
     ),
+    further,
   );
 }
 
@@ -71,6 +71,7 @@ function map(slice, quantity, cells, scale, also, width) {
     label: unit ? `${label}, ${unit}` : label,
     labelArrow: false,
     ticks: Math.max(3, Math.round(width / 90)),
+    tickFormat: tick,
   });
   const strips = (wanted) => stripsOf(slice, (state) => state === wanted);
   const drawing = plot(`Map of ${quantity.label} over ${slice.x.label} and ${slice.y.label}`, {
@@ -131,11 +132,13 @@ function hatches() {
   );
 }
 
-const cellTitle = (slice, { unit }, tip) => (cell) => {
-  const place = ({ label, unit: of }, at) => `${label} = ${withUnit(significant(at, 4), of)}`;
-  const lines = [`${place(slice.x, cell.x)}, ${place(slice.y, cell.y)}`];
-  if (isNumber(cell.value)) lines.push(withUnit(significant(cell.value), unit));
-  const state = STATES.find(({ state }) => state === cell.state);
-  if (state) lines.push(state.text);
-  return [...lines, ...(tip?.(cell) ?? [])].join("\n");
-};
+const cellTitle =
+  (slice, { unit }, tip) =>
+  (cell) => {
+    const place = ({ label, unit: of }, at) => `${label} = ${withUnit(significant(at, 4), of)}`;
+    const lines = [`${place(slice.x, cell.x)}, ${place(slice.y, cell.y)}`];
+    if (isNumber(cell.value)) lines.push(withUnit(significant(cell.value), unit));
+    const state = STATES.find(({ state }) => state === cell.state);
+    if (state) lines.push(state.text);
+    return [...lines, ...(tip?.(cell) ?? [])].join("\n");
+  };
