@@ -81,7 +81,7 @@ json QuantityJson(const ErrorMap& map, const std::string& key, const std::string
     for (Eigen::Index x = 0; x < map.first.size(); ++x) {
       const Eigen::Index point = y * map.first.size() + x;
       const bool has_value = map.values.states[static_cast<size_t>(point)] == PointState::kInside;
-      row.push_back(has_value ? Rounded(value(map.values.values.col(point))) : json());
+      row.push_back(has_value ? json(Rounded(value(map.values.values.col(point)))) : json());
     }
     rows.push_back(row);
   }

@@ -33,7 +33,7 @@ json RobotJson(const ParallelRobot& robot) {
 std::optional<LegState> StateThatPoints(RobotLeg leg, const Rigid3& pose, const Eigen::Vector3d& direction) {
   for (const int turn : {1, -1}) {
     leg.working_mode *= turn;
-    const auto state = StateOf(leg, pose);
+    auto state = StateOf(leg, pose);
     if (state && (state->direction - direction).norm() < kSameDirection) return state;
   }
   return std::nullopt;

@@ -1,7 +1,7 @@
 // The poses other than the goal at which all legs of the set point as they do there: in numbers, and as a picture.
 import { copyable } from "../shared/copy_table.js";
 import { append, html, muted, paragraph, table } from "../shared/dom.js";
-import { bareFigureOf, figureOf, poseColumns } from "./figures.js";
+import { bareFigureOf, figureOf, placeOf, poseColumns } from "./figures.js";
 import { RobotView, canDrawRobot } from "./robot_view.js";
 import { legsOf, modesSentence } from "./wording.js";
 
@@ -42,12 +42,12 @@ export function modesTable(caption, document, path, view = null) {
     {
       label: "From the goal",
       unit: "mm",
-      cell: (row) => bareFigureOf(document, `${row.path}.position_from_goal_m`),
+      cell: (row) => placeOf(document, `${row.path}.position_from_goal_m`),
     },
     {
       label: "From the goal",
       unit: "°",
-      cell: (row) => bareFigureOf(document, `${row.path}.rotation_from_goal_rad`),
+      cell: (row) => placeOf(document, `${row.path}.rotation_from_goal_rad`),
     },
     { label: "Reached", text: true, cell: workingModes },
     {

@@ -19,7 +19,7 @@ import { START, enclosing, projection } from "../shared/turntable.js";
 
 // Of the scene's radius.
 const AXIS_LENGTH = 0.25;
-const MARGIN = 1.06;
+const MARGIN = 1.18; // with the numbers of the joints
 // A planar robot is looked at from above.
 const FROM_ABOVE = { ...START, azimuth: -Math.PI / 2, elevation: (75 * Math.PI) / 180 };
 const PLANAR = ["planar", "planar-point"];
@@ -78,7 +78,7 @@ export class RobotView {
       button.setAttribute("aria-pressed", String(button.dataset.place === this.place.name));
     const missing = this.place.robot.legs.flatMap(({ segments }, leg) => (segments ? [] : [leg + 1]));
     this.caption.textContent = missing.length
-      ? `Dotted: out of reach of leg ${missing.join(", ")} here, or not in the way that it bends at home.`
+      ? `Dotted: legs that do not reach this pose as they bend at home: ${missing.join(", ")}.`
       : "";
     this.turnable.redraw();
   }

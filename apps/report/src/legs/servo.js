@@ -20,6 +20,8 @@ export function renderServo(section, { data, set }) {
       section,
       muted("Not simulated: the best set is, and those of which nothing is proved about the way."),
     );
+  if (!found.errors_rad.flat().some((value) => value > NOTHING))
+    return append(section, muted("Simulated: the seen legs point as at the goal from the start."));
   append(
     section,
     directionPlot(found, set),

@@ -95,7 +95,7 @@ const MOTIONS = {
   planar: "x, y and a rotation about z",
   translation: "x, y and z",
   schoenflies: "x, y, z and a rotation about z",
-  spatial: "all six, as far as the legs allow",
+  spatial: "all six freedoms, as far as the legs allow",
 };
 export const motionOf = ({ platform }) => MOTIONS[platform] ?? platform ?? MISSING;
 
