@@ -47,9 +47,10 @@ function ofSimulation(simulation) {
 
 function ofErrors({ noise_rad: noise }, { largest_error_at_goal: goal, largest_error_on_path: way }) {
   if (!goal) return [];
+  const angle = withUnit(tick(DEGREES.scale * noise), DEGREES.unit);
   const onWay = way ? `, by up to ${sizes(way)} on the way` : "";
   return [
-    `With every seen direction off by up to ${withUnit(tick(DEGREES.scale * noise), DEGREES.unit)} the platform is off by up to ${sizes(goal)} at the goal${onWay}.`,
+    `With every seen direction off by up to ${angle} the platform is off by up to ${sizes(goal)} at the goal${onWay}.`,
   ];
 }
 

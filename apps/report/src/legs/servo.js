@@ -40,8 +40,9 @@ function directionPlot({ time_s: times, errors_rad: errors }, set) {
     values: scaled(errors[index], MRAD),
     color: legColor(leg - 1),
   }));
+  const end = set.simulation ? `At the end ${endOf(set.simulation)}.` : "";
   return figure(
-    `Sine of the angle between each seen direction and that at the goal. ${set.simulation ? `At the end ${endOf(set.simulation)}.` : ""}`,
+    ["Sine of the angle between each seen direction and that at the goal.", end].join(" "),
     html("h4", null, "Errors of the seen directions"),
     key(curves.map(({ color, label }) => ["line", color, label])),
     timePlot({ times }, curves, {

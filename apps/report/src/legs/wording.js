@@ -61,9 +61,14 @@ export function otherModes(modes) {
   return { text: `${count}${modes.status === "complete" ? "" : " or more"}`, count };
 }
 
+const NOT_COMPLETE = {
+  infinite: "There are infinitely many",
+  unreachable: "Nothing is known of others",
+};
+
 export function modesSentence({ status, why }) {
   if (status === "complete") return "It is proved that there are no others.";
-  return `${{ infinite: "There are infinitely many", unreachable: "Nothing is known of others" }[status] ?? "There may be others"}: ${why}.`;
+  return `${NOT_COMPLETE[status] ?? "There may be others"}: ${why}.`;
 }
 
 const PATHS = {
