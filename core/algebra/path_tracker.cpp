@@ -90,6 +90,7 @@ PathEnd<N> PathTracker<N>::Track(const Point& solution_of_start, double toleranc
 }
 
 template class PathTracker<4>;
+template class PathTracker<7>;
 template class PathTracker<8>;
 
 }  // namespace legible

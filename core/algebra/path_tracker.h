@@ -54,6 +54,7 @@ class PathTracker {
 };
 
 extern template class PathTracker<4>;  // three quadrics in space
+extern template class PathTracker<7>;  // three points on circles
 extern template class PathTracker<8>;  // rigid motions in Study coordinates
 
 }  // namespace legible

@@ -10,24 +10,28 @@ namespace legible {
 namespace {
 
 constexpr int kMaxNewtonSteps = 10;
+constexpr double kShortStep = 1e-6;  // relative to the numbers; before, steps may grow on the way to a root
 
-// Newton steps more where the proof fails, with residuals in balls: near other roots those in doubles are too
-// coarse.
-constexpr int kMaxRefinements = 2;
+// Newton steps more where the proof fails or leaves the root wide, with residuals in balls: near other roots
+// those in doubles are too coarse.
+constexpr int kMaxRefinements = 4;
+
+// Of a root's distance from its midpoint, relative to the numbers: no refinement is worth its time.
+constexpr double kKnownToRounding = 1e-13;
 
 // More than all roundings of a sum or product of a few hundred positive doubles.
 constexpr double kUpward = 1 + 1e-12, kDownward = 1 - 1e-12;
 
 double MaxNorm(const Eigen::VectorXcd& z) { return z.cwiseAbs().maxCoeff(); }
 
-// Until the steps no longer become shorter.
+// Until the steps, once short, no longer become shorter.
 Eigen::VectorXcd Polished(const QuadricSystem& system, Eigen::VectorXcd z) {
   double last_step = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxNewtonSteps; ++i) {
     const auto at = Evaluate(system, z);
     const Eigen::VectorXcd step = at.jacobian.partialPivLu().solve(at.values);
     const double length = MaxNorm(step);
-    if (!(length < last_step)) break;
+    if (!std::isfinite(length) || (length >= last_step && length < kShortStep * (1 + MaxNorm(z)))) break;
     z -= step;
     last_step = length;
   }
@@ -117,13 +121,22 @@ Relation RelationOf(const CertifiedRoot& root, const std::vector<CertifiedRoot>&
 
 std::optional<CertifiedRoot> CertifyRoot(const QuadricSystem& system, const Eigen::VectorXcd& z) {
   Eigen::VectorXcd midpoint = Polished(system, z);
-  for (int refinement = 0; refinement <= kMaxRefinements && midpoint.allFinite(); ++refinement) {
+  std::optional<CertifiedRoot> root;
+  for (int refinement = 0; refinement <= kMaxRefinements && midpoint.allFinite() && !root; ++refinement) {
     const KrawczykTest test = TestAt(system, midpoint);
-    const std::optional<CertifiedRoot> root = Certified(midpoint, test);
-    if (root) return system.is_real() ? KnownRealOrNot(*root) : root;
+    root = Certified(midpoint, test);
     midpoint += test.correction;
   }
-  return {};
+  // A proof may hold far around a midpoint at which Newton's method stopped short; from there on it
+  // converges.
+  while (root && root->radius > kKnownToRounding * (1 + MaxNorm(midpoint))) {
+    const KrawczykTest test = TestAt(system, midpoint);
+    const std::optional<CertifiedRoot> nearer = Certified(midpoint, test);
+    if (!nearer || nearer->radius > root->radius / 2) break;
+    root = nearer;
+    midpoint += test.correction;
+  }
+  return root && system.is_real() ? KnownRealOrNot(*root) : root;
 }
 
 CertifiedRoots CertifyRoots(const QuadricSystem& system,

@@ -24,6 +24,7 @@ constexpr int kPolishSteps = 10;
 struct SeenLeg {
   RobotLeg leg;
   Eigen::Vector3d direction;  // wanted
+  bool is_held = false;       // candidates are poses that put its platform joint where the direction allows
 };
 
 size_t FewestLegs(PlatformMotion motion) {
@@ -34,10 +35,8 @@ size_t FewestLegs(PlatformMotion motion) {
 const char* WhyNotSolved(PlatformMotion motion, const std::vector<HeldJoint>& held) {
   const auto circles =
       std::count_if(held.begin(), held.end(), [](const HeldJoint& joint) { return joint.space.is_circle; });
-  if (motion == PlatformMotion::kSpatial && circles > 0)
-    return "platforms of six freedoms are solved for where their joints are held on lines alone";
-  if (motion == PlatformMotion::kSchoenflies && circles == 1)
-    return "legs that hold their platform joints on a line and on a circle are not solved for";
+  if (motion == PlatformMotion::kSpatial && circles > 0 && circles < 3)
+    return "legs that hold their platform joints on lines and on circles are not solved for";
   return nullptr;
 }
 
@@ -150,10 +149,13 @@ JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, c
   bool is_reversed = false;
   for (const SeenLeg& leg : seen) {
     const auto nearest = NearestStateOf(leg, candidate);
-    if (!nearest) return judged;
-    const double against = (nearest->state.direction + leg.direction).norm();
+    const double against = nearest ? (nearest->state.direction + leg.direction).norm() : 0;
+    if (!nearest || std::min(nearest->error, against) > kNearDirection) {
+      // A leg that was held there can but be so near to stretched or folded that rounding turns it.
+      if (leg.is_held) judged.as = Judged::kDoubtful;
+      return judged;
+    }
     is_reversed = is_reversed || against < kNearDirection;
-    if (std::min(nearest->error, against) > kNearDirection) return judged;
   }
   if (is_reversed) {
     judged.as = Judged::kReversed;
@@ -236,7 +238,7 @@ std::optional<std::vector<SeenLeg>> TellingLegs(const ParallelRobot& robot, cons
     const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
     const auto state = StateOf(it, pose);
     if (!state) return std::nullopt;
-    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg) seen.push_back({it, state->direction});
+    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg) seen.push_back({it, state->direction, false});
   }
   return seen;
 }
@@ -260,13 +262,16 @@ const char* ToString(AssemblyModesStatus status) {
 AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
                               const Rigid3& base_from_platform) {
   CheckLegs(robot, legs);
-  const auto seen = TellingLegs(robot, legs, base_from_platform);
+  auto seen = TellingLegs(robot, legs, base_from_platform);
   if (!seen) return WithoutModes(AssemblyModesStatus::kUnreachable, "a seen leg does not reach the pose");
   if (seen->size() < FewestLegs(robot.motion))
     return WithoutModes(AssemblyModesStatus::kInfinite, "too few directions are seen to hold the platform");
   std::vector<HeldJoint> held;
-  for (const size_t i : BestConditioned(robot, *seen, base_from_platform))
+  for (const size_t i : BestConditioned(robot, *seen, base_from_platform)) {
+    // Two directions over-determine a translation: its candidates are near at best.
+    (*seen)[i].is_held = robot.motion != PlatformMotion::kTranslation;
     held.push_back(HeldJointOf((*seen)[i]));
+  }
   const ModeCandidates candidates = CandidatesOf(robot.motion, held, robot.home);
   if (candidates.is_infinite) return WithoutModes(AssemblyModesStatus::kInfinite, candidates.why);
   AssemblyModes modes;

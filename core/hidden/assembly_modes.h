@@ -32,14 +32,14 @@ struct AssemblyModes {
   std::vector<AssemblyMode> modes;  // by increasing distance from the pose asked for, which comes first
   // Poses at which an extending leg points exactly against its direction: e = u x u* is zero there too.
   std::vector<Rigid3> reversed;
-  int most_possible = 0;  // that the family has by theory: 8, 6, 4 or 2; 0 where it is not solved for
+  int most_possible = 0;  // that the family has by theory: 16 to 2; 0 where it is not solved for
   std::string why;        // in words, where not complete
 };
 
 // The modes of the hidden robot whose seen legs (from 0) have the directions that they have at the pose. More
 // legs than the platform needs are sieved from those of the fewest. Not solved for, and incomplete, are
-// spatial platforms with joints on circles (RUS) and Schoenflies platforms with one on a circle, one on a
-// line. Throws std::invalid_argument for a leg that is not there or named twice.
+// spatial platforms with joints on circles (RUS) and on lines. Throws std::invalid_argument for a leg that is
+// not there or named twice.
 AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
                               const Rigid3& base_from_platform);
 

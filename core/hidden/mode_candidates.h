@@ -41,10 +41,11 @@ ModeCandidates PlanarCandidates(const std::vector<HeldJoint>& three, const Rigid
 // Two joints, x, y and z: two circles or lines in space.
 ModeCandidates TranslationCandidates(const std::vector<HeldJoint>& two, const Rigid3& home);
 
-// Two joints, x, y, z and rotation about z: a Bohemian dome and a circle, at most 8; two lines, at most 2.
+// Two joints, x, y, z and rotation about z: a Bohemian dome and a circle, at most 8; a line and a circle, at
+// most 4; two lines, at most 2.
 ModeCandidates SchoenfliesCandidates(const std::vector<HeldJoint>& two, const Rigid3& home);
 
-// Three joints on lines, all six: at most 8.
+// Three joints, all six: on lines at most 8, on circles at most 16. All three of one kind.
 ModeCandidates SpatialCandidates(const std::vector<HeldJoint>& three, const Rigid3& home);
 
 }  // namespace legible

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/algebra/three_quadrics.h"
 #include "core/hidden/affine_forms.h"
@@ -14,37 +16,50 @@ constexpr double kLeastArm_m = 1e-9;
 constexpr double kLeastSine = 1e-9;
 constexpr int kUnknowns = 3;
 
-// C of both legs as affine forms of (1, cos, sin, cos, sin): where they are on their circles.
-using JointForms = std::array<Eigen::Matrix<RealBall, 3, 5>, 2>;
+using FormsOf3 = Eigen::Matrix<RealBall, 3, Eigen::Dynamic>;
 
-JointForms OnCircles(const std::vector<HeldJoint>& two) {
+// C of both legs as affine forms: a column for 1, then for each leg cos and sin on its circle, or the way
+// along its line.
+using JointForms = std::array<FormsOf3, 2>;
+
+JointForms JointFormsOf(const std::vector<HeldJoint>& two) {
+  Eigen::Index columns = 1;
+  for (const HeldJoint& joint : two) columns += joint.space.is_circle ? 2 : 1;
   JointForms forms;
+  Eigen::Index column = 1;
   for (size_t i = 0; i < 2; ++i) {
-    const VertexSpace& circle = two[i].space;
-    const RealBall radius(circle.radius_m);
-    forms[i].setZero();
-    const auto column = static_cast<Eigen::Index>(1 + 2 * i);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      forms[i](k, 0) = RealBall(circle.point_m[k]);
-      forms[i](k, column) = radius * RealBall(circle.along[k]);
-      forms[i](k, column + 1) = radius * RealBall(circle.second_radius[k]);
-    }
+    const VertexSpace& space = two[i].space;
+    forms[i] = FormsOf3::Zero(3, columns);
+    forms[i].col(0) = space.point_m.cast<RealBall>();
+    const RealBall scale(space.is_circle ? space.radius_m : 1);
+    forms[i].col(column++) = scale * space.along.cast<RealBall>();
+    if (space.is_circle) forms[i].col(column++) = scale * space.second_radius.cast<RealBall>();
   }
   return forms;
 }
 
 // C_1 - C_2 less what between them does not turn.
-Eigen::Matrix<RealBall, 3, 5> Apart(const std::vector<HeldJoint>& two, const JointForms& c) {
-  Eigen::Matrix<RealBall, 3, 5> apart = c[0] - c[1];
+FormsOf3 Apart(const std::vector<HeldJoint>& two, const JointForms& c) {
+  FormsOf3 apart = c[0] - c[1];
   for (Eigen::Index k = 0; k < 3; ++k)
     apart(k, 0) -= RealBall(two[0].carried_m[k]) - RealBall(two[1].carried_m[k]);
   apart(2, 0) -= RealBall(two[0].turned_m.z()) - RealBall(two[1].turned_m.z());
   return apart;
 }
 
+// By how much C_1 and C_2 are apart horizontally, squared.
+RealBall Arm_m2(const std::vector<HeldJoint>& two) {
+  RealBall arm_m2(0.0);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const RealBall side = RealBall(two[0].turned_m[k]) - RealBall(two[1].turned_m[k]);
+    arm_m2 += side * side;
+  }
+  return arm_m2;
+}
+
 // The height of C_1 over C_2 is given: one of the four unknowns by the other three. Each row of the result is
 // one of (1, cos, sin, cos, sin) as a form of those three; nothing where no unknown has a part in the height.
-std::optional<Eigen::Matrix<RealBall, 5, 4>> WithoutHeight(const Eigen::Matrix<RealBall, 3, 5>& apart) {
+std::optional<Eigen::Matrix<RealBall, 5, 4>> WithoutHeight(const FormsOf3& apart) {
   Eigen::Index eliminated = 1;
   for (Eigen::Index k = 2; k < 5; ++k)
     if (std::abs(MidpointOf(apart(2, k))) > std::abs(MidpointOf(apart(2, eliminated)))) eliminated = k;
@@ -60,21 +75,19 @@ std::optional<Eigen::Matrix<RealBall, 5, 4>> WithoutHeight(const Eigen::Matrix<R
   return forms;
 }
 
-AffineForm FormOf(const Eigen::Matrix<RealBall, 1, 4>& row) { return row.transpose(); }
+template <typename Row>
+AffineForm FormOf(const Row& row) {
+  return row.transpose();
+}
 
-QuadricSystem CirclesAtDistance(const std::vector<HeldJoint>& two, const Eigen::Matrix<RealBall, 3, 5>& apart,
+QuadricSystem CirclesAtDistance(const std::vector<HeldJoint>& two, const FormsOf3& apart,
                                 const Eigen::Matrix<RealBall, 5, 4>& forms) {
   const auto on_circle = [&](Eigen::Index k) {
     return SumOfSquares({FormOf(forms.row(k)), FormOf(forms.row(k + 1))}, RealBall(1.0));
   };
-  RealBall arm_m2(0.0);
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const RealBall side = RealBall(two[0].turned_m[k]) - RealBall(two[1].turned_m[k]);
-    arm_m2 += side * side;
-  }
   const Eigen::Matrix<RealBall, 2, 4> horizontal = apart.topRows<2>() * forms;
   return QuadricSystem({on_circle(1), on_circle(3),
-                        SumOfSquares({FormOf(horizontal.row(0)), FormOf(horizontal.row(1))}, arm_m2)});
+                        SumOfSquares({FormOf(horizontal.row(0)), FormOf(horizontal.row(1))}, Arm_m2(two))});
 }
 
 // The pose with the platform joints at these places.
@@ -86,41 +99,57 @@ Rigid3 PoseOf(const std::vector<HeldJoint>& two, const Eigen::Vector3d& c1_m, co
   return {rotation, c1_m - two[0].carried_m - rotation * two[0].turned_m};
 }
 
-ModeCandidates OfCircles(const std::vector<HeldJoint>& two) {
+// Of the real ones among the roots; `values` has (1, cos, sin, ...) of both joints by (1, the system's
+// unknowns).
+ModeCandidates CandidatesOf(const std::vector<HeldJoint>& two, const JointForms& c,
+                            const ThreeQuadricsRoots& roots, const Eigen::MatrixXd& values,
+                            int most_possible) {
+  const auto midpoint = [](const RealBall& x) { return MidpointOf(x); };
+  const Eigen::Matrix3Xd first = c[0].unaryExpr(midpoint), second = c[1].unaryExpr(midpoint);
   ModeCandidates candidates;
+  candidates.most_possible = most_possible;
+  for (const CertifiedRoot& root : roots.roots) {
+    if (!root.is_real) continue;
+    const Eigen::VectorXd at = values * (Eigen::Vector4d() << 1, root.midpoint.real()).finished();
+    candidates.poses.push_back(PoseOf(two, first * at, second * at));
+  }
+  const int missing = most_possible - static_cast<int>(roots.roots.size());
+  candidates.is_complete = missing <= 0;
+  if (missing > 0)
+    candidates.why = std::to_string(missing) + " of the " + std::to_string(most_possible) +
+                     " roots are multiple or at infinity";
+  return candidates;
+}
+
+ModeCandidates OfCircles(const std::vector<HeldJoint>& two) {
   const Eigen::Vector3d first_normal = two[0].space.along.cross(two[0].space.second_radius);
   const Eigen::Vector3d second_normal = two[1].space.along.cross(two[1].space.second_radius);
   const bool are_parallel = first_normal.cross(second_normal).norm() < kLeastSine;
   // In parallel planes four of the eight are at infinity.
-  candidates.most_possible = are_parallel ? kThreeQuadricsRootCount / 2 : kThreeQuadricsRootCount;
-  const JointForms c = OnCircles(two);
-  const auto apart = Apart(two, c);
+  const int most_possible = are_parallel ? kThreeQuadricsRootCount / 2 : kThreeQuadricsRootCount;
+  const JointForms c = JointFormsOf(two);
+  const FormsOf3 apart = Apart(two, c);
   const auto forms = WithoutHeight(apart);
   if (!forms) {
+    ModeCandidates candidates;
+    candidates.most_possible = most_possible;
     candidates.why = "both seen legs move horizontally alone";
     return candidates;
   }
-  const ThreeQuadricsRoots roots = AllRoots(CirclesAtDistance(two, apart, *forms));
-  const Eigen::Matrix<double, 5, 4> values =
-      forms->unaryExpr([](const RealBall& x) { return MidpointOf(x); });
-  for (const CertifiedRoot& root : roots.roots) {
-    if (!root.is_real) continue;
-    const Eigen::Matrix<double, 5, 1> on_circles =
-        values * (Eigen::Vector4d() << 1, root.midpoint.real()).finished();
-    const auto place = [&](size_t i) -> Eigen::Vector3d {
-      const VertexSpace& circle = two[i].space;
-      const auto at = static_cast<Eigen::Index>(1 + 2 * i);
-      return circle.point_m +
-             circle.radius_m * (on_circles[at] * circle.along + on_circles[at + 1] * circle.second_radius);
-    };
-    candidates.poses.push_back(PoseOf(two, place(0), place(1)));
-  }
-  const int missing = candidates.most_possible - static_cast<int>(roots.roots.size());
-  candidates.is_complete = missing <= 0;
-  if (missing > 0)
-    candidates.why = std::to_string(missing) + " of the " + std::to_string(candidates.most_possible) +
-                     " roots are multiple or at infinity";
-  return candidates;
+  return CandidatesOf(two, c, AllRoots(CirclesAtDistance(two, apart, *forms)),
+                      forms->unaryExpr([](const RealBall& x) { return MidpointOf(x); }), most_possible);
+}
+
+// The height is a plane in (way along the line, cos, sin): of the eight roots four are at infinity.
+ModeCandidates OfLineAndCircle(const std::vector<HeldJoint>& two) {
+  const JointForms c = JointFormsOf(two);
+  const FormsOf3 apart = Apart(two, c);
+  const int cosine = two[0].space.is_circle ? 0 : 1;
+  const QuadricSystem system(
+      {AsQuadric(FormOf(apart.row(2))),
+       SumOfSquares({UnknownForm(kUnknowns, cosine), UnknownForm(kUnknowns, cosine + 1)}, RealBall(1.0)),
+       SumOfSquares({FormOf(apart.row(0)), FormOf(apart.row(1))}, Arm_m2(two))});
+  return CandidatesOf(two, c, AllRoots(system), Eigen::Matrix4d::Identity(), kThreeQuadricsRootCount / 2);
 }
 
 // Heights tell how far C_1 is along its rail by how far C_2 is along its own; the arm's length then is a
@@ -165,6 +194,7 @@ ModeCandidates SchoenfliesCandidates(const std::vector<HeldJoint>& two, const Ri
     candidates.why = "the seen legs hold the same half of the platform: its rotation is not seen";
     return candidates;
   }
+  if (two[0].space.is_circle != two[1].space.is_circle) return OfLineAndCircle(two);
   return two[0].space.is_circle ? OfCircles(two) : OfLines(two);
 }
 

@@ -51,6 +51,8 @@ std::vector<Family> Families() {
   families.push_back({"6-U_PS, legs 1, 2, 3", "8", spatial, {0, 1, 2}});
   const auto rps = [](std::mt19937_64& random) { return RandomSpatialRobot(random, Times(3, "R_PS")); };
   families.push_back({"3-R_PS", "", rps, {0, 1, 2}});
+  const auto rus = [](std::mt19937_64& random) { return RandomSpatialRobot(random, Times(6, "_RUS")); };
+  families.push_back({"6-_RUS, legs 1, 2, 3", "", rus, {0, 1, 2}});
   for (const char* chain : {"U_PU", "_R-{2-US}", "_P-{2-US}"}) {
     const auto translation = [chain](std::mt19937_64& random) {
       return RandomTranslationRobot(random, Times(3, chain));

@@ -157,6 +157,10 @@ RobotAtPose RandomTranslationRobot(std::mt19937_64& generator, const std::vector
 }
 
 RobotAtPose RandomSchoenfliesRobot(std::mt19937_64& generator, const std::string& chain) {
+  return RandomSchoenfliesRobot(generator, std::vector<std::string>(4, chain));
+}
+
+RobotAtPose RandomSchoenfliesRobot(std::mt19937_64& generator, const std::vector<std::string>& chains) {
   RobotAtPose random;
   random.robot.name = "Schoenflies";
   random.robot.motion = PlatformMotion::kSchoenflies;
@@ -165,11 +169,11 @@ RobotAtPose RandomSchoenfliesRobot(std::mt19937_64& generator, const std::string
   random.robot.home = random.pose;
   const std::vector<Eigen::Vector3d> halves = {UniformVector(generator, -0.1, 0.1),
                                                UniformVector(generator, -0.1, 0.1)};
-  for (size_t i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < chains.size(); ++i) {
     const double angle_rad = std::numbers::pi / 2 * (static_cast<double>(i) - 1.5);
     random.robot.legs.push_back(LegThatReaches(
         [&] {
-          RobotLeg leg = DeltaLeg(generator, chain, angle_rad);
+          RobotLeg leg = DeltaLeg(generator, chains[i], angle_rad);
           leg.platform_joint_m = halves[i / 2];
           leg.carried_offset_m = UniformVector(generator, -0.08, 0.08);
           return leg;

@@ -28,6 +28,8 @@ RobotAtPose RandomTranslationRobot(std::mt19937_64& generator, const std::vector
 // Like a Quattro: four legs of that chain; the first two hold one half of the platform and the others the
 // other, which turns.
 RobotAtPose RandomSchoenfliesRobot(std::mt19937_64& generator, const std::string& chain);
+// The same of four chains.
+RobotAtPose RandomSchoenfliesRobot(std::mt19937_64& generator, const std::vector<std::string>& chains);
 
 // A pose of the robot near the given one, moved by up to `displacement` m and rad in each of its freedoms.
 Rigid3 RandomPoseNear(std::mt19937_64& generator, const ParallelRobot& robot, const Rigid3& pose,

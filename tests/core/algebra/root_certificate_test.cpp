@@ -6,6 +6,7 @@
 #include <complex>
 #include <stdexcept>
 
+#include "core/algebra/three_quadrics.h"
 #include "tests/core/algebra/quadrics.h"
 
 namespace legible {
@@ -55,6 +56,24 @@ TEST(QuadricSystem, ValuesAndDerivativesAreThoseOfTheQuadrics) {
 TEST(QuadricSystem, RefusesMatricesOfOtherSizes) {
   EXPECT_THROW(QuadricSystem({ComplexBallMatrix(3, 3)}), std::invalid_argument);
   EXPECT_THROW(QuadricSystem({ComplexBallMatrix(3, 3), ComplexBallMatrix(3, 2)}), std::invalid_argument);
+}
+
+// Newton's method stops where its steps grow, and a proof may hold far around: neither is where the search
+// ends.
+TEST(CertifyRoot, KnowsWellConditionedRootsToRoundingFromRoughApproximations) {
+  std::mt19937_64 generator = TestGenerator();
+  int certified = 0;
+  for (int n = 0; n < 200; ++n) {
+    const QuadricSystem system = ExactSystem(RandomQuadrics(generator));
+    for (const CertifiedRoot& root : AllRoots(system).roots) {
+      const Eigen::VectorXcd offset = UniformVector(generator, -0.1, 0.1).cast<Complex>();
+      const auto again = CertifyRoot(system, root.midpoint + offset);
+      if (!again) continue;
+      ++certified;
+      EXPECT_LT(again->radius, 1e-9 * (1 + again->midpoint.norm())) << n;
+    }
+  }
+  EXPECT_GT(certified, 1000);
 }
 
 TEST(CertifyRoot, EnclosesTheRootOfTwo) {

@@ -141,6 +141,28 @@ RationalPolynomial SpatialPolynomial(const std::vector<ExactLeg>& legs) {
   return Interpolated(value, 8);
 }
 
+// |C_b - C_a|^2 less its value times 1 + t_b^2, in t_b, C_a given: both circles have their radius exactly.
+RationalPolynomial CirclesAtDistance(const ExactLeg& a, const Rational& t_a, const ExactLeg& b) {
+  const Vector3q side = OnCircle(a, t_a) - a.point, apart = b.point - a.point, from = apart - side;
+  const Rational constant = apart.dot(apart) - Rational(2) * apart.dot(side) + a.radius * a.radius +
+                            b.radius * b.radius - SquaredDistance(a, b);
+  const Rational cosine = Rational(2) * from.dot(b.first), sine = Rational(2) * from.dot(b.second);
+  return {constant + cosine, Rational(2) * sine, constant - cosine};
+}
+
+// As on lines, by tangents of half the angles.
+RationalPolynomial SpatialCirclePolynomial(const std::vector<ExactLeg>& legs) {
+  const auto value = [&](const Rational& t1) {
+    const auto of_second = [&](const Rational& t2) {
+      return Resultant(CirclesAtDistance(legs[0], t1, legs[2]), CirclesAtDistance(legs[1], t2, legs[2])) *
+             Power(Rational(1) + t2 * t2, 2);
+    };
+    return Resultant(CirclesAtDistance(legs[0], t1, legs[1]), Interpolated(of_second, 4)) *
+           Power(Rational(1) + t1 * t1, 8);
+  };
+  return Interpolated(value, 16);
+}
+
 // What C_2 - C_1 has to be less what does not turn: C_1 at its place, C_2 yet to go from its point.
 Vector3q FromSecondPoint(const std::vector<ExactLeg>& legs, const Vector3q& c1) {
   Vector3q d = c1 - legs[0].carried - legs[1].point + legs[1].carried;
@@ -154,23 +176,36 @@ Rational HorizontalDistance2(const std::vector<ExactLeg>& legs) {
 }
 
 // With t of C_2 on its circle: at the height d_z, and horizontally at the distance from d.
-RationalPolynomial SchoenfliesCirclePolynomial(const std::vector<ExactLeg>& legs) {
+Rational SchoenfliesCircleCondition(const std::vector<ExactLeg>& legs, const Vector3q& c1) {
   const Vector3q& a = legs[1].first;
   const Vector3q& b = legs[1].second;
+  const Vector3q d = FromSecondPoint(legs, c1);
+  const RationalPolynomial height = {d[2] - a[2], Rational(-2) * b[2], d[2] + a[2]};
+  const std::array<Vector2q, 3> v = {(d - a).head<2>(), Rational(-2) * b.head<2>(), (d + a).head<2>()};
+  RationalPolynomial distance(5);
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) distance[i + j] += v[i].dot(v[j]);
+  const Rational arm2 = HorizontalDistance2(legs);
+  distance[0] -= arm2;
+  distance[2] -= Rational(2) * arm2;
+  distance[4] -= arm2;
+  return Resultant(height, distance);
+}
+
+RationalPolynomial SchoenfliesCirclePolynomial(const std::vector<ExactLeg>& legs) {
   const auto value = [&](const Rational& t1) {
-    const Vector3q d = FromSecondPoint(legs, OnCircle(legs[0], t1));
-    const RationalPolynomial height = {d[2] - a[2], Rational(-2) * b[2], d[2] + a[2]};
-    const std::array<Vector2q, 3> v = {(d - a).head<2>(), Rational(-2) * b.head<2>(), (d + a).head<2>()};
-    RationalPolynomial distance(5);
-    for (size_t i = 0; i < 3; ++i)
-      for (size_t j = 0; j < 3; ++j) distance[i + j] += v[i].dot(v[j]);
-    const Rational arm2 = HorizontalDistance2(legs);
-    distance[0] -= arm2;
-    distance[2] -= Rational(2) * arm2;
-    distance[4] -= arm2;
-    return Resultant(height, distance) * Power(Rational(1) + t1 * t1, 8);
+    return SchoenfliesCircleCondition(legs, OnCircle(legs[0], t1)) * Power(Rational(1) + t1 * t1, 8);
   };
   return WithoutCircularPoints(Interpolated(value, 16));
+}
+
+RationalPolynomial SchoenfliesMixedPolynomial(const std::vector<ExactLeg>& legs) {
+  const std::vector<ExactLeg> line_first =
+      legs[0].is_on_circle ? std::vector<ExactLeg>{legs[1], legs[0]} : legs;
+  const auto value = [&](const Rational& s1) {
+    return SchoenfliesCircleCondition(line_first, line_first[0].point + s1 * line_first[0].first);
+  };
+  return Interpolated(value, 8);
 }
 
 RationalPolynomial SchoenfliesLinePolynomial(const std::vector<ExactLeg>& legs) {
@@ -190,9 +225,10 @@ RationalPolynomial PolynomialOf(const ParallelRobot& robot, const std::vector<Ex
     case PlatformMotion::kPlanar:
       return PlanarPolynomial(legs);
     case PlatformMotion::kSchoenflies:
+      if (legs[0].is_on_circle != legs[1].is_on_circle) return SchoenfliesMixedPolynomial(legs);
       return legs[0].is_on_circle ? SchoenfliesCirclePolynomial(legs) : SchoenfliesLinePolynomial(legs);
     case PlatformMotion::kSpatial:
-      return SpatialPolynomial(legs);
+      return legs[0].is_on_circle ? SpatialCirclePolynomial(legs) : SpatialPolynomial(legs);
     case PlatformMotion::kTranslation:
       break;
   }

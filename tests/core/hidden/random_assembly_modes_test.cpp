@@ -58,6 +58,10 @@ std::function<RobotAtPose(std::mt19937_64&)> Schoenflies(const std::string& chai
   return [chain](std::mt19937_64& generator) { return RandomSchoenfliesRobot(generator, chain); };
 }
 
+RobotAtPose RailAndArm(std::mt19937_64& generator) {
+  return RandomSchoenfliesRobot(generator, {"_P-{2-US}", "_R-{2-US}", "_R-{2-US}", "_P-{2-US}"});
+}
+
 std::vector<Family> Families() {
   return {
       {"RRRRR", 2, {0, 1}, Planar({"R_RR", "_RRR"})},
@@ -75,6 +79,9 @@ std::vector<Family> Families() {
       {"Quattro, a pair", 8, {0, 3}, Schoenflies("_R-{2-US}")},
       {"Quattro, a pair in parallel planes", 4, {0, 1}, InParallelPlanes},
       {"Quattro on rails, a pair", 2, {1, 2}, Schoenflies("_P-{2-US}")},
+      {"Quattro with a rail and an arm", 4, {0, 2}, RailAndArm},
+      {"Quattro with an arm and a rail", 4, {1, 3}, RailAndArm},
+      {"6-RUS, three legs", 16, {0, 2, 4}, Spatial("_RUS")},
   };
 }
 
