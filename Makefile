@@ -32,7 +32,7 @@ bench: packages ## run the benchmarks: tables, and build/bench/*.json
 
 reproduction: packages ## servo as the paper did: the tables and figures of docs/reproduction.md
 	cmake --preset release
-	cmake --build --preset release --parallel $(JOBS) --target tests/reproduction/all
+	cmake --build --preset release --parallel $(JOBS) --target legible tests/reproduction/all
 	scripts/run_reproduction.sh
 
 sanitize: packages ## run the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer

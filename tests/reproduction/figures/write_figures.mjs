@@ -5,7 +5,8 @@ import { chromium } from "playwright-core";
 
 const [script, dataFolder, outFolder] = process.argv.slice(2);
 const read = (name) => JSON.parse(readFileSync(join(dataFolder, `${name}.json`), "utf8"));
-const data = { side_view: read("side_view"), error_curves: read("error_curves") };
+const names = ["side_view", "error_curves", "slice_070", "slice_061"];
+const data = Object.fromEntries(names.map((name) => [name, read(name)]));
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
