@@ -15,26 +15,6 @@ namespace {
 
 constexpr char kReachable[] = "reachable";
 
-int ParseCoordinate(const std::string& name) {
-  const auto found = std::find(CoordinateNames().begin(), CoordinateNames().end(), name);
-  if (found == CoordinateNames().end())
-    throw std::invalid_argument(
-        fmt::format("\"{}\" is none of {}, {}", name, fmt::join(CoordinateNames(), ", "), kReachable));
-  return static_cast<int>(found - CoordinateNames().begin());
-}
-
-std::array<double, 2> ParseRange(const std::string& text) {
-  const std::vector<std::string> ends = Split(text, ':');
-  if (ends.size() != 2) throw std::invalid_argument(fmt::format("\"{}\" is not LOW:HIGH", text));
-  const std::array<double, 2> range = {ParseNumber(ends[0]), ParseNumber(ends[1])};
-  if (range[0] > range[1]) throw std::invalid_argument(fmt::format("the range {} is reversed", text));
-  constexpr double kFarthest = 1000;  // m or rad
-  if (range[0] < -kFarthest || range[1] > kFarthest)
-    throw std::invalid_argument(
-        fmt::format("the range {} is beyond any robot; give metres and radians", text));
-  return range;
-}
-
 OutputUnit UnitOf(const std::vector<OutputUnit>& units, const std::optional<std::string>& asked,
                   const std::string& for_people, AccuracyFormat format) {
   const bool people_read = format == AccuracyFormat::kTable || format == AccuracyFormat::kHtml;
@@ -54,11 +34,6 @@ const std::vector<OutputUnit>& AngleUnits() {
   return units;
 }
 
-const std::vector<std::string>& CoordinateNames() {
-  static const std::vector<std::string> names = {"x", "y", "z", "rx", "ry", "rz"};
-  return names;
-}
-
 OutputUnit LengthUnitOf(const AccuracySettings& settings) {
   return UnitOf(LengthUnits(), settings.length_unit, "mm", settings.format);
 }
@@ -69,19 +44,13 @@ OutputUnit AngleUnitOf(const AccuracySettings& settings) {
 
 BoxSetting ParseBox(const std::string& text) {
   BoxSetting box;
-  for (const std::string& part : Split(text, ',')) {
-    if (part == kReachable) {
+  std::vector<std::string> ranges;
+  for (const std::string& part : Split(text, ','))
+    if (part == kReachable)
       box.is_reachable = true;
-      continue;
-    }
-    const size_t equals = part.find('=');
-    if (equals == std::string::npos)
-      throw std::invalid_argument(fmt::format("\"{}\" is neither {} nor NAME=LOW:HIGH", part, kReachable));
-    const int coordinate = ParseCoordinate(std::string(Trimmed(part.substr(0, equals))));
-    if (!box.ranges.emplace(coordinate, ParseRange(part.substr(equals + 1))).second)
-      throw std::invalid_argument(
-          fmt::format("{} has two ranges", CoordinateNames()[static_cast<size_t>(coordinate)]));
-  }
+    else
+      ranges.push_back(part);
+  box.ranges = ParseRanges(ranges, kReachable);
   const bool has_width = std::any_of(box.ranges.begin(), box.ranges.end(),
                                      [](const auto& entry) { return entry.second[0] < entry.second[1]; });
   if (!has_width && !box.is_reachable) throw std::invalid_argument("the box has no range that is not empty");

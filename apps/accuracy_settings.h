@@ -1,14 +1,13 @@
 // What the user of `legible accuracy` asks for.
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/workspace.h"
+#include "apps/option_values.h"
 #include "core/geometry/orientation.h"
 #include "core/geometry/rigid3.h"
 
@@ -24,14 +23,10 @@ struct OutputUnit {
 const std::vector<OutputUnit>& LengthUnits();  // m, cm, mm
 const std::vector<OutputUnit>& AngleUnits();   // rad, deg
 
-// "x", "y", "z", "rx", "ry", "rz": of poses and boxes.
-const std::vector<std::string>& CoordinateNames();
-
-// Ranges by coordinate (0 to 5, SI); what is not named is held, or with `is_reachable` x, y and z range over
-// all that the joint ranges allow.
+// What is not named is held, or with `is_reachable` x, y and z range over all that the joint ranges allow.
 struct BoxSetting {
   bool is_reachable = false;
-  std::map<int, std::array<double, 2>> ranges;
+  CoordinateRanges ranges;
 };
 
 // Of a joint reading, where the user says nothing.

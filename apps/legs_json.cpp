@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_text.h"
+#include "apps/legs_map_json.h"
 #include "apps/wording.h"
 
 namespace legible {
@@ -16,11 +17,6 @@ using nlohmann::ordered_json;
 
 ordered_json PoseJson(const Rigid3& pose) {
   return {{"rotation_xyzw", List(pose.rotation.coeffs())}, {"translation_m", List(pose.translation)}};
-}
-
-std::vector<int> FromOne(std::vector<int> legs) {
-  for (int& leg : legs) ++leg;
-  return legs;
 }
 
 ordered_json ChainsJson(const ParallelRobot& robot) {
@@ -54,21 +50,58 @@ ordered_json ControllabilityJson(const Controllability& it) {
           {"why", it.why}};
 }
 
-ordered_json ModesJson(const AssemblyModes& modes, const Rigid3& goal) {
+ordered_json FromGoalJson(const Rigid3& goal, const Rigid3& pose) {
+  const Vector6d from_goal = Displacement(goal, pose);
+  return {{"base_from_platform", PoseJson(pose)},
+          {"position_from_goal_m", from_goal.head<3>().norm()},
+          {"rotation_from_goal_rad", from_goal.tail<3>().norm()}};
+}
+
+// Null where the joints have no ranges.
+ordered_json WithinJointRangesJson(const ParallelRobot& robot, const Rigid3& pose) {
+  const bool has_ranges = std::any_of(robot.legs.begin(), robot.legs.end(),
+                                      [](const RobotLeg& leg) { return leg.joint_range.has_value(); });
+  const CellState state = StateOfCell(robot, pose);
+  if (state == CellState::kFine && !has_ranges) return {};
+  return state == CellState::kFine;
+}
+
+ordered_json ModesJson(const LegsRun& run, const AssemblyModes& modes) {
   ordered_json list = ordered_json::array();
   for (const AssemblyMode& mode : modes.modes) {
-    const Vector6d from_goal = Displacement(goal, mode.base_from_platform);
-    list.push_back({{"base_from_platform", PoseJson(mode.base_from_platform)},
-                    {"position_from_goal_m", from_goal.head<3>().norm()},
-                    {"rotation_from_goal_rad", from_goal.tail<3>().norm()},
-                    {"has_own_working_modes", mode.has_own_working_modes},
-                    {"largest_direction_error", mode.largest_direction_error}});
+    ordered_json json = FromGoalJson(run.to, mode.base_from_platform);
+    json["has_own_working_modes"] = mode.has_own_working_modes;
+    json["within_joint_ranges"] = WithinJointRangesJson(run.robot, mode.base_from_platform);
+    json["largest_direction_error"] = mode.largest_direction_error;
+    list.push_back(json);
   }
   return {{"status", ToString(modes.status)},
           {"most_possible", modes.most_possible},
           {"why", modes.why},
           {"modes", list},
           {"with_a_reversed_leg", modes.reversed.size()}};
+}
+
+// Of the robot itself, by its joint readings.
+ordered_json RobotModesJson(const LegsRun& run) {
+  if (!run.robot_modes) return {};
+  const GoughStewartAssemblyModes& modes = *run.robot_modes;
+  ordered_json list = ordered_json::array();
+  for (const GoughStewartAssemblyMode& mode : modes.modes) {
+    ordered_json json = FromGoalJson(run.to, mode.base_from_platform);
+    json["largest_length_error_m"] = mode.largest_length_error_m;
+    list.push_back(json);
+  }
+  std::sort(list.begin(), list.end(), [](const ordered_json& a, const ordered_json& b) {
+    return a.at("position_from_goal_m").get<double>() < b.at("position_from_goal_m").get<double>();
+  });
+  return {{"status", modes.is_complete ? "complete" : "incomplete"},
+          {"why", modes.is_complete
+                      ? ""
+                      : fmt::format("{} of {} complex roots are certified; {} seem to be at infinity",
+                                    modes.certified, kGoughStewartRootCount, modes.at_infinity)},
+          {"most_possible", kGoughStewartRootCount},
+          {"modes", list}};
 }
 
 ordered_json ErrorJson(const std::optional<LargestPoseError>& error) {
@@ -79,16 +112,13 @@ ordered_json ErrorJson(const std::optional<LargestPoseError>& error) {
 ordered_json SimulationJson(const std::optional<DirectionServoRun>& run, const Rigid3& goal) {
   if (!run) return {};
   const DirectionServoSample& last = run->samples.back();
-  const Vector6d from_goal = Displacement(goal, last.base_from_platform);
-  return {{"end", ToString(run->end)},
-          {"time_s", last.time_s},
-          {"base_from_platform", PoseJson(last.base_from_platform)},
-          {"position_from_goal_m", from_goal.head<3>().norm()},
-          {"rotation_from_goal_rad", from_goal.tail<3>().norm()},
-          {"largest_direction_error_rad", *std::max_element(last.errors_rad.begin(), last.errors_rad.end())}};
+  ordered_json json = {{"end", ToString(run->end)}, {"time_s", last.time_s}};
+  json.update(FromGoalJson(goal, last.base_from_platform));
+  json["largest_direction_error_rad"] = *std::max_element(last.errors_rad.begin(), last.errors_rad.end());
+  return json;
 }
 
-ordered_json SetJson(const JudgedLegSet& set, const Controllability& by_lines, const Rigid3& goal) {
+ordered_json SetJson(const LegsRun& run, const JudgedLegSet& set, const Controllability& by_lines) {
   ordered_json path = PathJson(set.path);
   path["is_the_simulated_way"] = set.is_path_simulated;
   const bool was_judged = set.error_at_goal.has_value();  // else it was ruled out before
@@ -98,10 +128,10 @@ ordered_json SetJson(const JudgedLegSet& set, const Controllability& by_lines, c
           {"controllability", ControllabilityJson(set.controllability)},
           {"by_lines", ControllabilityJson(by_lines)},
           {"path", was_judged ? path : ordered_json()},
-          {"assembly_modes", was_judged ? ModesJson(set.modes, goal) : ordered_json()},
+          {"assembly_modes", was_judged ? ModesJson(run, set.modes) : ordered_json()},
           {"largest_error_at_goal", ErrorJson(set.error_at_goal)},
           {"largest_error_on_path", ErrorJson(set.error_on_path)},
-          {"simulation", SimulationJson(set.simulated, goal)}};
+          {"simulation", SimulationJson(set.simulated, run.to)}};
 }
 
 std::vector<std::string> Warnings(const LegsRun& run) {
@@ -125,7 +155,7 @@ std::vector<std::string> Warnings(const LegsRun& run) {
 ordered_json LegsJson(const LegsRun& run) {
   ordered_json sets = ordered_json::array();
   for (size_t i = 0; i < run.selection.sets.size(); ++i)
-    sets.push_back(SetJson(run.selection.sets[i], run.by_lines[i], run.to));
+    sets.push_back(SetJson(run, run.selection.sets[i], run.by_lines[i]));
   return {{"robot", run.robot.name},
           {"platform", ToString(run.robot.motion)},
           {"from", PoseJson(run.from)},
@@ -133,9 +163,11 @@ ordered_json LegsJson(const LegsRun& run) {
           {"noise_rad", run.settings.noise_rad},
           {"legs", ChainsJson(run.robot)},
           {"robot_path", PathJson(run.selection.robot_path)},
+          {"robot_modes", RobotModesJson(run)},
           {"sets", sets},
           {"choice", run.selection.has_choice ? ordered_json(FromOne(run.selection.sets.front().legs))
                                               : ordered_json()},
+          {"maps", run.map ? SliceMapJson(*run.map) : ordered_json()},
           {"warnings", Warnings(run)}};
 }
 

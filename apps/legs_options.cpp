@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/legs_command.h"
+#include "apps/legs_map.h"
 #include "apps/option_checks.h"
 #include "apps/option_values.h"
 #include "core/geometry/orientation.h"
@@ -71,6 +72,12 @@ const CLI::App* AddLegsCommand(CLI::App& program, LegsSettings& settings) {
       *command, "--gain", "PER_S",
       [&settings](const std::string& text) { settings.gain_per_s = ParsePositive(text); },
       fmt::format("Of the simulated servo; {:g} without it", settings.gain_per_s));
+  AddText(
+      *command, "--map", "NAME=LOW:HIGH,NAME=LOW:HIGH",
+      [&settings](const std::string& text) { settings.map = ParseMap(text); },
+      "Singularities and largest errors over two coordinates\nof x y z rx ry rz (m, rad), the others as at "
+      "the goal,\n"
+      "of the sets of --legs or of the best that lead to the\ngoal; only with --format json or html");
   AddFormat(
       *command, {"table", "json", "html"},  // in the order of the enum
       [&settings](size_t format) { settings.format = static_cast<LegsFormat>(format); },
@@ -78,6 +85,10 @@ const CLI::App* AddLegsCommand(CLI::App& program, LegsSettings& settings) {
   command->add_option("--out", settings.out, "File for it; standard output without it")
       ->check([](const std::string& text) { return text.empty() ? "name a file" : std::string(); })
       ->type_name("FILE");
+  command->parse_complete_callback([&settings] {
+    if (settings.map && settings.format == LegsFormat::kTable)
+      throw CLI::ValidationError("--map", "is no table: give --format json or html");
+  });
   return command;
 }
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "apps/leg_visibility.h"
+#include "apps/legs_map.h"
 #include "core/robots/leg_state.h"
+#include "core/robots/parallel_kinematics.h"
 #include "core/robots/platform_motion.h"
 #include "datasets/input_error.h"
 #include "datasets/model_file.h"
@@ -19,18 +18,11 @@ namespace {
 // A servo of any gain is simulated alike: by steps of this part of its time constant, for so many of them.
 constexpr double kStepTimesGain = 0.008;
 constexpr double kLongestTimesGain = 48;
+constexpr size_t kMostMappedSets = 6;
 
 Rigid3 PoseOf(const std::optional<Vector6d>& pose, const Rigid3& home) {
   if (!pose) return home;
   return {RotationFromVector(pose->tail<3>()), pose->head<3>()};
-}
-
-// Angles by any number of whole turns.
-bool IsWithin(const LegChain& chain, double reading, const std::array<double, 2>& range) {
-  const double middle = (range[0] + range[1]) / 2;
-  const double off =
-      ReadsAngle(chain) ? std::remainder(reading - middle, 2 * std::numbers::pi) : reading - middle;
-  return std::abs(off) <= (range[1] - range[0]) / 2;
 }
 
 void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, const Rigid3& pose,
@@ -45,7 +37,7 @@ void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, c
       throw InputError(settings.model, 0,
                        fmt::format("has a leg {} that does not reach the pose of {}", i + 1, option),
                        "give a pose within reach");
-    if (range && !IsWithin(robot.legs[i].chain, state->reading, *range))
+    if (!IsWithinJointRange(robot.legs[i], state->reading))
       throw InputError(
           settings.model, 0,
           fmt::format("has a leg {} that would read {:.4g} at the pose of {}, beyond its range of {:.4g} to "
@@ -73,6 +65,21 @@ std::function<bool(int, const Rigid3&)> VisibilityByModel(const std::filesystem:
   return VisibilityOfLegs(robot, *model.camera, *model.camera_from_base);
 }
 
+std::optional<GoughStewartAssemblyModes> RobotModesAt(const ParallelRobot& robot, const Rigid3& goal) {
+  const std::optional<GoughStewart> hexapod = GoughStewartOf(robot);
+  if (!hexapod) return std::nullopt;
+  return AllAssemblyModes(*hexapod, InverseKinematics(*hexapod, goal));
+}
+
+// Sets to map: those that were named, or the best that lead to the goal.
+std::vector<std::vector<int>> SetsToMap(const LegsSettings& settings, const LegSelection& selection) {
+  if (!settings.leg_sets.empty()) return settings.leg_sets;
+  std::vector<std::vector<int>> legs;
+  for (const JudgedLegSet& set : selection.sets)
+    if (LeadsToGoal(set) && legs.size() < kMostMappedSets) legs.push_back(set.legs);
+  return legs;
+}
+
 }  // namespace
 
 LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
@@ -96,6 +103,10 @@ LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
   });
   for (const JudgedLegSet& set : run.selection.sets)
     run.by_lines.push_back(ControllabilityOf(run.robot, set.legs, run.to, SeenFeature::kLines));
+  run.robot_modes = RobotModesAt(run.robot, run.to);
+  if (settings.map || settings.format == LegsFormat::kHtml)
+    run.map = MapLegSets(settings, run.robot, SliceOf(settings, run.robot, run.to),
+                         SetsToMap(settings, run.selection), progress);
   return run;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/option_values.h"
 #include "core/geometry/orientation.h"
 #include "core/geometry/rigid3.h"
 
@@ -22,6 +23,7 @@ struct LegsSettings {
   std::vector<std::vector<int>> leg_sets;  // from 0; empty: every set
   double noise_rad = kAssumedDirectionNoise_rad;
   double gain_per_s = 0.8;
+  std::optional<CoordinateRanges> map;  // of two coordinates
   LegsFormat format = LegsFormat::kTable;
   std::optional<std::filesystem::path> out;  // else standard output
 };

@@ -65,15 +65,22 @@ std::string PoseText(const ordered_json& pose) {
                      q[0], q[1], q[2], q[3]);
 }
 
+// What keeps the robot from a mode.
+std::string HowFarOutText(const ordered_json& mode) {
+  std::string text;
+  if (!mode.at("has_own_working_modes").get<bool>()) text += ", past a stretched or folded leg";
+  if (mode.at("within_joint_ranges") == false) text += ", beyond the reach of its joints";
+  return text;
+}
+
 std::string ModesText(const ordered_json& document) {
   std::string text;
   for (const ordered_json& set : document.at("sets")) {
     if (set.at("assembly_modes").is_null()) continue;
     const ordered_json& modes = set.at("assembly_modes").at("modes");
     for (size_t i = 1; i < modes.size(); ++i)
-      text += fmt::format(
-          "  {}: {}{}\n", LegsOf(set), PoseText(modes[i].at("base_from_platform")),
-          modes[i].at("has_own_working_modes").get<bool>() ? "" : ", past a stretched or folded leg");
+      text += fmt::format("  {}: {}{}\n", LegsOf(set), PoseText(modes[i].at("base_from_platform")),
+                          HowFarOutText(modes[i]));
   }
   if (text.empty()) return "";
   return "\nWhere else the seen legs point as they do at the goal\n" + text;
@@ -87,6 +94,14 @@ std::string PathText(const ordered_json& document) {
   return fmt::format(
       "\nThe robot's own straight way is not proved free of singularities beyond {:.4g} of it: {}.\n",
       path.at("free_up_to").get<double>(), path.at("why").get<std::string>());
+}
+
+std::string RobotModesText(const ordered_json& document) {
+  const ordered_json& own = document.at("robot_modes");
+  if (own.is_null()) return "";
+  const bool is_complete = own.at("status") == "complete";
+  return fmt::format("All its joints read as at the goal at {} other poses{}.\n", own.at("modes").size() - 1,
+                     is_complete ? "" : " or more: " + own.at("why").get<std::string>());
 }
 
 std::string ChoiceText(const ordered_json& document) {
@@ -103,7 +118,7 @@ std::string ChoiceText(const ordered_json& document) {
 
 std::string LegsTable(const ordered_json& document) {
   return ChainsText(document) + SetsText(document) + ModesText(document) + PathText(document) +
-         ChoiceText(document);
+         RobotModesText(document) + ChoiceText(document);
 }
 
 }  // namespace legible

@@ -1,6 +1,7 @@
 #include "apps/option_values.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -10,6 +11,30 @@
 #include "datasets/text.h"
 
 namespace legible {
+namespace {
+
+int ParseCoordinate(const std::string& name, const std::string& also) {
+  const auto found = std::find(CoordinateNames().begin(), CoordinateNames().end(), name);
+  if (found == CoordinateNames().end())
+    throw std::invalid_argument(fmt::format("\"{}\" is none of {}{}{}", name,
+                                            fmt::join(CoordinateNames(), ", "), also.empty() ? "" : ", ",
+                                            also));
+  return static_cast<int>(found - CoordinateNames().begin());
+}
+
+std::array<double, 2> ParseRange(const std::string& text) {
+  const std::vector<std::string> ends = Split(text, ':');
+  if (ends.size() != 2) throw std::invalid_argument(fmt::format("\"{}\" is not LOW:HIGH", text));
+  const std::array<double, 2> range = {ParseNumber(ends[0]), ParseNumber(ends[1])};
+  if (range[0] > range[1]) throw std::invalid_argument(fmt::format("the range {} is reversed", text));
+  constexpr double kFarthest = 1000;  // m or rad
+  if (range[0] < -kFarthest || range[1] > kFarthest)
+    throw std::invalid_argument(
+        fmt::format("the range {} is beyond any robot; give metres and radians", text));
+  return range;
+}
+
+}  // namespace
 
 std::vector<std::string> Split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -31,6 +56,27 @@ double ParsePositive(const std::string& text) {
   const double value = ParseNumber(text);
   if (!(value > 0)) throw std::invalid_argument(fmt::format("{} is not more than 0", text));
   return value;
+}
+
+const std::vector<std::string>& CoordinateNames() {
+  static const std::vector<std::string> names = {"x", "y", "z", "rx", "ry", "rz"};
+  return names;
+}
+
+CoordinateRanges ParseRanges(const std::vector<std::string>& texts, const std::string& also) {
+  CoordinateRanges ranges;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw std::invalid_argument(
+          fmt::format("\"{}\" is {}", text,
+                      also.empty() ? "not NAME=LOW:HIGH" : "neither " + also + " nor NAME=LOW:HIGH"));
+    const int coordinate = ParseCoordinate(std::string(Trimmed(text.substr(0, equals))), also);
+    if (!ranges.emplace(coordinate, ParseRange(text.substr(equals + 1))).second)
+      throw std::invalid_argument(
+          fmt::format("{} has two ranges", CoordinateNames()[static_cast<size_t>(coordinate)]));
+  }
+  return ranges;
 }
 
 Vector6d ParseSix(const std::string& text, const std::string& what) {

@@ -2,6 +2,8 @@
 // user.
 #pragma once
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,15 @@ namespace legible {
 std::vector<std::string> Split(const std::string& text, char separator);  // trimmed
 double ParseNumber(const std::string& text);                              // finite
 double ParsePositive(const std::string& text);
+
+// "x", "y", "z", "rx", "ry", "rz": of poses, boxes and maps.
+const std::vector<std::string>& CoordinateNames();
+
+// Least and largest value by coordinate (0 to 5, SI).
+using CoordinateRanges = std::map<int, std::array<double, 2>>;
+
+// Of texts like "rz=-0.1:0.1"; `also` is a word that the user could have given instead of one.
+CoordinateRanges ParseRanges(const std::vector<std::string>& texts, const std::string& also = "");
 
 // Six numbers between blanks or commas; `what` names them in the message.
 Vector6d ParseSix(const std::string& text, const std::string& what);

@@ -14,6 +14,12 @@ inline std::string Plural(int count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+// Legs as people count them, from 1.
+inline std::vector<int> FromOne(std::vector<int> legs) {
+  for (int& leg : legs) ++leg;
+  return legs;
+}
+
 // With its first letter in capitals.
 inline std::string Capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));

@@ -183,10 +183,6 @@ void Rank(const ParallelRobot& robot, std::vector<JudgedLegSet>& sets) {
                    [&](const JudgedLegSet& a, const JudgedLegSet& b) { return key(a) < key(b); });
 }
 
-bool LeadsToGoal(const JudgedLegSet& set) {
-  return set.verdict == LegSetVerdict::kPossible || set.verdict == LegSetVerdict::kArrives;
-}
-
 void CheckOptions(const ParallelRobot& robot, const LegSelectionOptions& options) {
   if (options.path_samples < 2) throw std::invalid_argument("a way needs two samples or more");
   if (options.leg_sets.empty() && static_cast<int>(robot.legs.size()) > kMostLegsToChooseFrom)
@@ -218,6 +214,10 @@ const char* ToString(LegSetVerdict verdict) {
       break;
   }
   return "misled";
+}
+
+bool LeadsToGoal(const JudgedLegSet& set) {
+  return set.verdict == LegSetVerdict::kPossible || set.verdict == LegSetVerdict::kArrives;
 }
 
 LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to,

@@ -53,6 +53,9 @@ struct JudgedLegSet {
   std::optional<DirectionServoRun> simulated;  // where the verdict needed it, and of the best
 };
 
+// Whether the servo of the set is known to end at the goal: it is possible, or arrives.
+bool LeadsToGoal(const JudgedLegSet& set);
+
 struct LegSelection {
   PathCertificate robot_path;      // the real robot's, straight
   std::vector<JudgedLegSet> sets;  // by verdict, best first

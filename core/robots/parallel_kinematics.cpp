@@ -57,6 +57,20 @@ std::optional<Eigen::VectorXd> InverseKinematics(const ParallelRobot& robot,
   return readings;
 }
 
+bool IsWithinJointRange(const RobotLeg& leg, double reading) {
+  if (!leg.joint_range) return true;
+  const auto& [least, largest] = *leg.joint_range;
+  const double off = reading - (least + largest) / 2;
+  return std::abs(ReadsAngle(leg.chain) ? std::remainder(off, 2 * std::numbers::pi) : off) <=
+         (largest - least) / 2;
+}
+
+bool AreWithinJointRanges(const ParallelRobot& robot, const Eigen::VectorXd& readings) {
+  for (size_t i = 0; i < robot.legs.size(); ++i)
+    if (!IsWithinJointRange(robot.legs[i], readings[static_cast<Eigen::Index>(i)])) return false;
+  return true;
+}
+
 ForwardResult ForwardKinematics(const ParallelRobot& robot, const Eigen::VectorXd& readings,
                                 const Rigid3& guess_base_from_platform) {
   ForwardResult result{ForwardKinematicsStatus::kNotConverged, guess_base_from_platform, 0};

@@ -12,6 +12,12 @@ namespace legible {
 std::optional<Eigen::VectorXd> InverseKinematics(const ParallelRobot& robot,
                                                  const Rigid3& base_from_platform);
 
+// Whether every joint that has a range reads within it, angles by any number of whole turns.
+bool AreWithinJointRanges(const ParallelRobot& robot, const Eigen::VectorXd& readings);
+
+// The same of one joint; true where it has no range.
+bool IsWithinJointRange(const RobotLeg& leg, double reading);
+
 struct ForwardResult {
   ForwardKinematicsStatus status = ForwardKinematicsStatus::kNotConverged;
   Rigid3 base_from_platform;

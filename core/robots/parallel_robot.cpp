@@ -166,4 +166,19 @@ ParallelRobot ParallelRobotOf(const ThreeUpu& robot) {
   return general;
 }
 
+std::optional<GoughStewart> GoughStewartOf(const ParallelRobot& robot) {
+  const LegChain ups = ChainFromText("U_PS");
+  const bool has_ups = std::all_of(robot.legs.begin(), robot.legs.end(),
+                                   [&](const RobotLeg& leg) { return leg.chain == ups; });
+  if (robot.motion != PlatformMotion::kSpatial || robot.legs.size() != kLegCount || !has_ups)
+    return std::nullopt;
+  GoughStewart hexapod{robot.name, robot.home, {}};
+  for (size_t i = 0; i < robot.legs.size(); ++i) {
+    const RobotLeg& leg = robot.legs[i];
+    hexapod.legs[i] = {leg.base_joint_m - leg.carried_offset_m, leg.platform_joint_m, leg.radius_m,
+                       leg.joint_offset, leg.joint_range.value_or(std::array<double, 2>{})};
+  }
+  return hexapod;
+}
+
 }  // namespace legible

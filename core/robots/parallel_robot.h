@@ -86,4 +86,8 @@ void CheckLeg(const ParallelRobot& robot, const RobotLeg& leg);
 ParallelRobot ParallelRobotOf(const GoughStewart& robot);
 ParallelRobot ParallelRobotOf(const ThreeUpu& robot);
 
+// The other way round, where the robot has six UPS legs whose lengths are actuated and moves in space. Joints
+// without a range get an empty one.
+std::optional<GoughStewart> GoughStewartOf(const ParallelRobot& robot);
+
 }  // namespace legible

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "datasets/model_file.h"
 #include "datasets/synthetic_session.h"
@@ -161,6 +163,51 @@ TEST(LegsCommand, RefusesBadInputInOneLine) {
     EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << "not one line: " << run.err;
     EXPECT_EQ(run.out, "");
   }
+}
+
+// Figure 19 of Briot et al. (2016): the singularities of legs {2, 3} cross the slice at z = -0.7 m, where
+// errors are large.
+TEST(LegsCommand, MapsErrorsThatGrowTowardsTheLineWhereTheHiddenRobotsSignChanges) {
+  const json document =
+      Document({kQuattro, "--to", "0.1 0 -0.7 0 0 0", "--legs", "2,3", "--map", "x=-0.4:0.4,y=-0.4:0.4"});
+  const json& maps = document["maps"];
+  ASSERT_EQ(maps["sets"].size(), 1U);
+  EXPECT_EQ(maps["x"]["coordinate"], "x");
+  EXPECT_DOUBLE_EQ(maps["y"]["values"].back().get<double>(), 0.4);
+  EXPECT_DOUBLE_EQ(maps["held"]["z"].get<double>(), -0.7);
+  const json &conditions = maps["sets"][0]["type_2_geometric"], &errors = maps["sets"][0]["position_error_m"];
+  std::vector<double> at_line, all;
+  for (size_t y = 0; y < conditions.size(); ++y)
+    for (size_t x = 0; x + 1 < conditions[y].size(); ++x) {
+      if (errors[y][x].is_null() || errors[y][x + 1].is_null()) continue;
+      all.push_back(errors[y][x]);
+      const bool is_crossed = conditions[y][x].get<double>() * conditions[y][x + 1].get<double>() < 0;
+      if (is_crossed) at_line.push_back(std::max(errors[y][x].get<double>(), errors[y][x + 1].get<double>()));
+    }
+  ASSERT_FALSE(at_line.empty());
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  const double median_m = all[all.size() / 2];
+  for (const double error_m : at_line) EXPECT_GT(error_m, 3 * median_m);
+}
+
+TEST(LegsCommand, RefusesMapsThatItCannotDraw) {
+  EXPECT_THAT(Legs({kQuattro, "--map", "x=0:1"}).err, HasSubstr("a map is over two coordinates"));
+  EXPECT_THAT(Legs({kQuattro, "--map", "x=0:1,y=1:1"}).err, HasSubstr("the range of y is empty"));
+  EXPECT_THAT(Legs({kQuattro, "--map", "x=0:1,w=0:1"}).err,
+              HasSubstr("\"w\" is none of x, y, z, rx, ry, rz"));
+  const ProgramRun tilted = Legs({kQuattro, "--map", "x=0:1,rx=0:1", "--format", "json"});
+  EXPECT_EQ(tilted.exit_code, kExitBadInput);
+  EXPECT_THAT(tilted.err, HasSubstr("does not move along the coordinates of --map"));
+}
+
+TEST(LegsCommand, ShowsTheHexapodsOwnAssemblyModesAndWhichModesItsJointsCanReach) {
+  const json document = Document({LEGIBLE_SOURCE_DIR "/datasets/hexapod/robot.yaml", "--legs", "1,2,6"});
+  EXPECT_EQ(document["robot_modes"]["most_possible"], 40);
+  ASSERT_FALSE(document["robot_modes"]["modes"].empty());
+  EXPECT_LT(document["robot_modes"]["modes"][0]["position_from_goal_m"].get<double>(), 1e-9);
+  for (const json& mode : document["sets"][0]["assembly_modes"]["modes"])
+    EXPECT_TRUE(mode["within_joint_ranges"].is_boolean());
+  EXPECT_TRUE(document["sets"][0]["assembly_modes"]["modes"][0]["within_joint_ranges"]);
 }
 
 }  // namespace
