@@ -59,9 +59,9 @@ double LocalMaximum(const Extent& extent, Eigen::Vector3d w) {
   return value;
 }
 
-// A cell of a face of the cube [-1, 1]^3, from whose directions the extent is at most `most`: a convex
-// function on a square is largest at a corner, and no point of the cell is shorter than its nearest to the
-// centre.
+// A cell of a face of the cube [-1, 1]^3, from whose directions the extent is at most `most`: a direction w
+// of the cell is a sum of its corners' directions c_k times numbers a_k >= 0, so that the extent in w is at
+// most sum a_k extent(c_k), and with the middle's direction m, sum a_k <= 1 / min (c_k . m) for |w| = 1.
 struct Cell {
   Eigen::Vector3d corner, first, second;  // the corner and the two edges
   double most = 0;
@@ -72,14 +72,15 @@ bool operator<(const Cell& a, const Cell& b) { return a.most < b.most; }
 Eigen::Vector3d Middle(const Cell& cell) { return cell.corner + 0.5 * (cell.first + cell.second); }
 
 double MostOf(const Extent& extent, const Cell& cell) {
-  double at_corners = 0;
+  const Eigen::Vector3d middle = Middle(cell).normalized();
+  double at_corners = 0, least_cosine = 1;
   for (const int i : {0, 1})
-    for (const int j : {0, 1})
-      at_corners = std::max(at_corners, extent(cell.corner + i * cell.first + j * cell.second));
-  const Eigen::Vector3d far = cell.corner + cell.first + cell.second;
-  Eigen::Vector3d nearest = cell.corner.cwiseMin(far).cwiseMax(Eigen::Vector3d::Zero());
-  nearest += cell.corner.cwiseMax(far).cwiseMin(Eigen::Vector3d::Zero());
-  return at_corners / nearest.norm();
+    for (const int j : {0, 1}) {
+      const Eigen::Vector3d corner = (cell.corner + i * cell.first + j * cell.second).normalized();
+      at_corners = std::max(at_corners, extent(corner));
+      least_cosine = std::min(least_cosine, corner.dot(middle));
+    }
+  return at_corners / least_cosine;
 }
 
 // The largest extent over all directions: those of half a cube's surface, for w and -w are alike.

@@ -105,7 +105,10 @@ TEST(LegsCommand, ThePageDrawsSeenLegsOfEveryModeAsAtTheGoal) {
   const ProgramRun run = Legs({kQuattro, "--from", kStart, "--to", kGoal, "--format", "html"});
   EXPECT_EQ(run.exit_code, kExitSuccess);
   const json data = PageData(run.out);
-  EXPECT_EQ(data["document"], Document({kQuattro, "--from", kStart, "--to", kGoal}));
+  json without_maps = data["document"];
+  EXPECT_FALSE(without_maps["maps"]["sets"].empty());
+  without_maps["maps"] = nullptr;
+  EXPECT_EQ(without_maps, Document({kQuattro, "--from", kStart, "--to", kGoal}));
   const double digits_m = 2e-3;  // of a picture
   int modes_drawn = 0;
   for (size_t i = 0; i < data["document"]["sets"].size(); ++i) {
