@@ -364,8 +364,16 @@ function dataOf(robot, perLeg, further) {
 const ownModes = (robot) => ({
   robot_modes: {
     status: "incomplete",
-    why: "12 of 40 paths left for infinity",
-    modes: modesOf(robot, 5),
+    why: "28 of 40 complex roots are certified; 12 seem to be at infinity",
+    most_possible: 40,
+    modes: modesOf(robot, 5).map(
+      ({ base_from_platform, position_from_goal_m, rotation_from_goal_rad, largest_direction_error }) => ({
+        base_from_platform,
+        position_from_goal_m,
+        rotation_from_goal_rad,
+        largest_length_error_m: largest_direction_error,
+      }),
+    ),
   },
 });
 

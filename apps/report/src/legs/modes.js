@@ -18,11 +18,17 @@ function modesOf(document, set, view) {
     paragraph(`${modesSentence(found)} `, ofAtMost(document, found, base)),
     reversed(document, base),
     found.modes.length > 0 &&
-      modesTable(`Poses at which legs ${legsOf(set)} point as at the goal`, document, `${base}.modes`, view),
+      modesTable(
+        `Poses at which legs ${legsOf(set)} point as at the goal`,
+        document,
+        `${base}.modes`,
+        hiddenColumns(document),
+        view,
+      ),
   ];
 }
 
-const ofAtMost = (document, { most_possible: most }, base) =>
+export const ofAtMost = (document, { most_possible: most }, base) =>
   most > 0 && ["Robots of this kind have at most ", figureOf(document, `${base}.most_possible`), " in all."];
 
 const reversed = (document, base) =>
@@ -32,8 +38,9 @@ const reversed = (document, base) =>
     ".",
   );
 
-// path: to a list of modes, the first of which is the goal itself; view: that shows one where it is clicked.
-export function modesTable(caption, document, path, view = null) {
+// path: to a list of modes, the first of which is the goal itself; last: the columns after the pose and its distance from
+// the goal; view: that shows a mode where it is clicked.
+export function modesTable(caption, document, path, last, view = null) {
   const modes = path.split(".").reduce((part, name) => part[name], document);
   const rows = modes.map((mode, index) => ({ ...mode, index, path: `${path}.${index}` }));
   const columns = [
@@ -49,19 +56,23 @@ export function modesTable(caption, document, path, view = null) {
       unit: "°",
       cell: (row) => placeOf(document, `${row.path}.rotation_from_goal_rad`),
     },
-    { label: "Reached", text: true, cell: workingModes },
-    {
-      label: "Within joint ranges",
-      text: true,
-      cell: ({ within_joint_ranges: is }) => ANSWER[is] ?? "not known",
-    },
-    {
-      label: "Directions differ by",
-      cell: (row) => bareFigureOf(document, `${row.path}.largest_direction_error`),
-    },
+    ...last,
   ];
   return copyable(table(caption, columns, [{ rows }]));
 }
+
+const hiddenColumns = (document) => [
+  { label: "Reached", text: true, cell: workingModes },
+  {
+    label: "Within joint ranges",
+    text: true,
+    cell: ({ within_joint_ranges: is }) => ANSWER[is] ?? "not known",
+  },
+  {
+    label: "Directions differ by",
+    cell: (row) => bareFigureOf(document, `${row.path}.largest_direction_error`),
+  },
+];
 
 const ANSWER = { true: "yes", false: "no" };
 

@@ -2,8 +2,8 @@
 import { copyable } from "../shared/copy_table.js";
 import { append, html, paragraph, table } from "../shared/dom.js";
 import { MISSING, sentence } from "../shared/format.js";
-import { figureOf, poseColumns } from "./figures.js";
-import { modesTable } from "./modes.js";
+import { bareFigureOf, figureOf, poseColumns } from "./figures.js";
+import { modesTable, ofAtMost } from "./modes.js";
 import { modesSentence, motionOf, pathVerdict } from "./wording.js";
 
 export function renderRobot(section, { data }) {
@@ -54,9 +54,19 @@ function ownWay(document) {
 
 function ownModes(document) {
   const modes = document.robot_modes;
-  const found = modes.modes?.length ?? 0;
+  const last = [
+    {
+      label: "Lengths differ by",
+      unit: "mm",
+      cell: (row) => bareFigureOf(document, `${row.path}.largest_length_error_m`),
+    },
+  ];
   return [
-    paragraph(`Poses with the joint readings of the goal: ${modesSentence(modes)}`),
-    found > 0 && modesTable("The robot’s own assembly modes at the goal", document, "robot_modes.modes"),
+    paragraph(
+      `Poses with the joint readings of the goal: ${modesSentence(modes)} `,
+      ofAtMost(document, modes, "robot_modes"),
+    ),
+    modes.modes.length > 0 &&
+      modesTable("The robot’s own assembly modes at the goal", document, "robot_modes.modes", last),
   ];
 }
