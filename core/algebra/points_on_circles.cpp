@@ -127,6 +127,7 @@ PointsOnCirclesRoots AllRoots(const CircleConditions& conditions) {
   static const Start start = MakeStart();
   const auto quadrics = QuadricsOf<RealBall>(Scaled(conditions));
   std::vector<ComplexBallMatrix> matrices;
+  matrices.reserve(quadrics.size());
   for (const auto& quadric : quadrics) matrices.emplace_back(quadric.cast<ComplexBall>());
   const QuadricSystem system(std::move(matrices));
   PointsOnCirclesRoots result;

@@ -78,6 +78,7 @@ using Joints = std::array<Eigen::Vector3d, 3>;
 // The pose that takes the platform joints there.
 Rigid3 PoseOf(const std::vector<HeldJoint>& three, const Joints& in_base_m) {
   std::vector<Eigen::Vector3d> in_platform_m;
+  in_platform_m.reserve(three.size());
   for (const HeldJoint& joint : three) in_platform_m.push_back(joint.turned_m);
   return FitRigid(in_platform_m, {in_base_m.begin(), in_base_m.end()});
 }
