@@ -5,7 +5,9 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "core/hidden/controllability.h"
 #include "core/hidden/mode_candidates.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
@@ -163,6 +165,10 @@ JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, c
   }
   judged.as = Judged::kDoubtful;
   judged.mode.base_from_platform = Polished(robot, seen, candidate);
+  if (!CanTake(robot, judged.mode.base_from_platform)) {  // a leg that is not seen, of RPS, forbids it
+    judged.as = Judged::kOther;
+    return judged;
+  }
   for (const SeenLeg& leg : seen) {
     const auto nearest = NearestStateOf(leg, judged.mode.base_from_platform);
     if (!nearest) return judged;
@@ -175,15 +181,15 @@ JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, c
 
 double Distance(const Rigid3& a, const Rigid3& b) { return Displacement(a, b).norm(); }
 
-// The fewest legs whose hidden robot is farthest from a singularity at the pose, as indices into `seen`.
-std::vector<size_t> BestConditioned(const ParallelRobot& robot, const std::vector<SeenLeg>& seen,
-                                    const Rigid3& pose) {
+// Every subset of the fewest legs, as indices into `seen`, that whose hidden robot is farthest from a
+// singularity at the pose first.
+std::vector<std::vector<size_t>> SubsetsByConditioning(const ParallelRobot& robot,
+                                                       const std::vector<SeenLeg>& seen, const Rigid3& pose) {
   const size_t fewest = FewestLegs(robot.motion);
   const auto basis = MotionBasis(robot, pose);
   std::vector<bool> is_in(seen.size(), false);
   std::fill_n(is_in.begin(), fewest, true);
-  std::vector<size_t> best;
-  double best_value = -1;
+  std::vector<std::pair<double, std::vector<size_t>>> subsets;
   do {
     std::vector<size_t> chosen;
     for (size_t i = 0; i < seen.size(); ++i)
@@ -194,13 +200,50 @@ std::vector<size_t> BestConditioned(const ParallelRobot& robot, const std::vecto
       matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
           DirectionInteraction(leg.leg, *StateOf(leg.leg, pose), pose) * basis;
     }
-    const double value = matrix.jacobiSvd().singularValues().tail<1>()[0];
-    if (value > best_value) {
-      best_value = value;
-      best = chosen;
-    }
+    subsets.emplace_back(matrix.jacobiSvd().singularValues().tail<1>()[0], std::move(chosen));
   } while (std::prev_permutation(is_in.begin(), is_in.end()));
-  return best;
+  std::stable_sort(subsets.begin(), subsets.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::vector<size_t>> ordered;
+  ordered.reserve(subsets.size());
+  for (auto& [value, subset] : subsets) ordered.push_back(std::move(subset));
+  return ordered;
+}
+
+// By the first subset that is solved for and does not leave the platform free by itself; where there is none,
+// what is wrong with the first.
+struct FewestSolved {
+  ModeCandidates candidates;
+  std::vector<size_t> legs;  // of the subset, as indices into those seen
+};
+FewestSolved CandidatesOfFewest(const ParallelRobot& robot, const std::vector<SeenLeg>& seen,
+                                const Rigid3& pose) {
+  FewestSolved first;
+  if (seen.size() < FewestLegs(robot.motion)) {
+    first.candidates.why = "fewer legs whose directions tell their places than " +
+                           std::to_string(FewestLegs(robot.motion)) + " are not solved for";
+    return first;
+  }
+  for (const std::vector<size_t>& subset : SubsetsByConditioning(robot, seen, pose)) {
+    std::vector<HeldJoint> held;
+    held.reserve(subset.size());
+    for (const size_t i : subset) held.push_back(HeldJointOf(seen[i]));
+    ModeCandidates candidates = CandidatesOf(robot.motion, held, robot.home);
+    if (candidates.most_possible > 0 && !candidates.is_infinite) return {std::move(candidates), subset};
+    if (first.legs.empty()) first = {std::move(candidates), subset};
+  }
+  return first;
+}
+
+// Whether legs of which every subset leaves the platform free leave it so together, at a singular pose: by
+// the same motion if there is one subset alone or all lines are parallel, and no RPS leg forbids it.
+bool AreFreeTogether(const ParallelRobot& robot, const std::vector<int>& legs,
+                     const std::vector<SeenLeg>& seen, const Rigid3& pose) {
+  if (robot.motion == PlatformMotion::kSpatial && MotionBasis(robot, pose).cols() < 6) return false;
+  std::vector<HeldJoint> held;
+  held.reserve(seen.size());
+  for (const SeenLeg& leg : seen) held.push_back(HeldJointOf(leg));
+  return legs.size() == FewestLegs(robot.motion) || AreParallelLines(held);
 }
 
 AssemblyModes WithoutModes(AssemblyModesStatus status, std::string why) {
@@ -230,15 +273,14 @@ void TakeCandidates(const ParallelRobot& robot, const std::vector<SeenLeg>& seen
   });
 }
 
-// Legs whose direction tells something of where the platform is; nothing where one does not reach the pose.
-std::optional<std::vector<SeenLeg>> TellingLegs(const ParallelRobot& robot, const std::vector<int>& legs,
-                                                const Rigid3& pose) {
+// Legs whose direction tells something of where the platform is; all reach the pose.
+std::vector<SeenLeg> TellingLegs(const ParallelRobot& robot, const std::vector<int>& legs,
+                                 const Rigid3& pose) {
   std::vector<SeenLeg> seen;
   for (const int leg : legs) {
     const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
-    const auto state = StateOf(it, pose);
-    if (!state) return std::nullopt;
-    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg) seen.push_back({it, state->direction, false});
+    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg)
+      seen.push_back({it, StateOf(it, pose)->direction, false});
   }
   return seen;
 }
@@ -262,25 +304,27 @@ const char* ToString(AssemblyModesStatus status) {
 AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
                               const Rigid3& base_from_platform) {
   CheckLegs(robot, legs);
-  auto seen = TellingLegs(robot, legs, base_from_platform);
-  if (!seen) return WithoutModes(AssemblyModesStatus::kUnreachable, "a seen leg does not reach the pose");
-  if (seen->size() < FewestLegs(robot.motion))
-    return WithoutModes(AssemblyModesStatus::kInfinite, "too few directions are seen to hold the platform");
-  std::vector<HeldJoint> held;
-  for (const size_t i : BestConditioned(robot, *seen, base_from_platform)) {
-    // Two directions over-determine a translation: its candidates are near at best.
-    (*seen)[i].is_held = robot.motion != PlatformMotion::kTranslation;
-    held.push_back(HeldJointOf((*seen)[i]));
-  }
-  const ModeCandidates candidates = CandidatesOf(robot.motion, held, robot.home);
-  if (candidates.is_infinite) return WithoutModes(AssemblyModesStatus::kInfinite, candidates.why);
+  if (legs.empty()) return WithoutModes(AssemblyModesStatus::kInfinite, "no leg is seen");
+  const Controllability control =
+      ControllabilityOf(robot, legs, base_from_platform, SeenFeature::kDirections);
+  if (control.status == ControllabilityStatus::kUnreachable)
+    return WithoutModes(AssemblyModesStatus::kUnreachable, control.why);
+  if (control.status == ControllabilityStatus::kUncontrollable)
+    return WithoutModes(AssemblyModesStatus::kInfinite, control.why);
+  std::vector<SeenLeg> seen = TellingLegs(robot, legs, base_from_platform);
+  const auto [candidates, held] = CandidatesOfFewest(robot, seen, base_from_platform);
+  if (candidates.is_infinite && control.status == ControllabilityStatus::kSingularPose &&
+      AreFreeTogether(robot, legs, seen, base_from_platform))
+    return WithoutModes(AssemblyModesStatus::kInfinite, candidates.why);
+  // Two directions over-determine a translation: its candidates are near at best.
+  for (const size_t i : held) seen[i].is_held = robot.motion != PlatformMotion::kTranslation;
   AssemblyModes modes;
   modes.most_possible = candidates.most_possible;
   modes.status = candidates.is_complete ? AssemblyModesStatus::kComplete : AssemblyModesStatus::kIncomplete;
   modes.why = candidates.why;
   std::vector<Rigid3> poses = candidates.poses;
   poses.push_back(base_from_platform);
-  TakeCandidates(robot, *seen, base_from_platform, poses, modes);
+  TakeCandidates(robot, seen, base_from_platform, poses, modes);
   return modes;
 }
 

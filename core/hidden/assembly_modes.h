@@ -36,10 +36,13 @@ struct AssemblyModes {
   std::string why;        // in words, where not complete
 };
 
-// The modes of the hidden robot whose seen legs (from 0) have the directions that they have at the pose. More
-// legs than the platform needs are sieved from those of the fewest. Not solved for, and incomplete, are
-// spatial platforms with joints on circles (RUS) and on lines. Throws std::invalid_argument for a leg that is
-// not there or named twice.
+// The modes of the hidden robot whose seen legs (from 0) have the directions that they have at the pose,
+// among poses that the platform can take. More legs than the platform needs are sieved from those of the
+// fewest that are solved for. Not solved for, and incomplete, are spatial platforms with joints on circles
+// (RUS) and on lines, and fewer legs that tell their place than three (planar and spatial platforms) or two,
+// where RPS legs or a direction fixed in the platform hold the rest. Infinite is said where the legs do not
+// control the platform anywhere (ControllabilityOf), and of singular poses where the fewest legs there can be
+// leave it free, or parallel lines. Throws std::invalid_argument for a leg that is not there or named twice.
 AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
                               const Rigid3& base_from_platform);
 

@@ -42,13 +42,13 @@ std::optional<Rank> RankAt(const ParallelRobot& robot, const std::vector<int>& l
   return rank;
 }
 
-// A pose around the given one that the robot can take.
-Rigid3 Nearby(const ParallelRobot& robot, const Rigid3& pose, std::mt19937& random) {
+// A pose around the given one that the robot can take; the step in rad and in the robot's size.
+Rigid3 Nearby(const ParallelRobot& robot, const Rigid3& pose, double step, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto basis = MotionBasis(robot, pose);
   Eigen::VectorXd coordinates(basis.cols());
   for (double& coordinate : coordinates) coordinate = uniform(random);
-  Vector6d twist = kOtherPoseStep * (basis * coordinates);
+  Vector6d twist = step * (basis * coordinates);
   twist.head<3>() *= SizeOf_m(robot, pose);
   return BackToMotion(robot, Displaced(pose, twist));
 }
@@ -57,10 +57,14 @@ Rigid3 Nearby(const ParallelRobot& robot, const Rigid3& pose, std::mt19937& rand
 int MostSeenNearby(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& pose,
                    SeenFeature feature) {
   std::mt19937 random(kSeed);
+  double step = kOtherPoseStep;
   int most = 0;
   for (int i = 0; i < kOtherPoses; ++i) {
-    const auto rank = RankAt(robot, legs, Nearby(robot, pose, random), feature);
-    if (rank) most = std::max(most, rank->seen);
+    const auto rank = RankAt(robot, legs, Nearby(robot, pose, step, random), feature);
+    if (rank)
+      most = std::max(most, rank->seen);
+    else
+      step /= 2;
   }
   return most;
 }

@@ -29,7 +29,8 @@ struct Controllability {
 };
 
 // At the pose; poses around it, moved by a tenth of the platform's distance from its base joints (fixed
-// seed), tell a singular pose from a robot that cannot be controlled anywhere.
+// seed; by half as much after each that is not reached), tell a singular pose from a robot that cannot be
+// controlled anywhere.
 Controllability ControllabilityOf(const ParallelRobot& robot, const std::vector<int>& legs,
                                   const Rigid3& base_from_platform, SeenFeature feature);
 

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "core/robots/leg_state.h"
+#include "core/robots/platform_motion.h"
 #include "tests/testing/random.h"
 #include "tests/testing/random_robots.h"
 
@@ -135,7 +137,7 @@ TEST(AssemblyModes, AreInfiniteWhereTheDirectionsDoNotHoldThePlatform) {
   };
   const RobotAtPose hexapod = RandomSpatialRobot(generator, kHexapodChains);
   EXPECT_EQ(status(hexapod, {0, 1}), AssemblyModesStatus::kInfinite);
-  EXPECT_EQ(status(RandomPlanarRobot(generator, {"_RRR", "_RRR", "_PRP"}), {0, 1, 2}),
+  EXPECT_EQ(status(RandomPlanarRobot(generator, {"_RRR", "_PRP", "_PRP"}), {0, 1, 2}),
             AssemblyModesStatus::kInfinite);
   const RobotAtPose quattro = RandomSchoenfliesRobot(generator, "_R-{2-US}");
   EXPECT_EQ(status(quattro, {0, 1}), AssemblyModesStatus::kInfinite);  // both hold the same half
@@ -144,6 +146,128 @@ TEST(AssemblyModes, AreInfiniteWhereTheDirectionsDoNotHoldThePlatform) {
   in_line.robot.legs[2].platform_joint_m =
       2 * in_line.robot.legs[1].platform_joint_m - in_line.robot.legs[0].platform_joint_m;
   EXPECT_EQ(status(in_line, {0, 1, 2}), AssemblyModesStatus::kInfinite);
+}
+
+// The seen directions, one after the other.
+Eigen::VectorXd DirectionsAt(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& pose) {
+  const auto states = StatesOf(robot, legs, pose).value();
+  Eigen::VectorXd directions(3 * static_cast<Eigen::Index>(legs.size()));
+  for (size_t k = 0; k < states.size(); ++k)
+    directions.segment<3>(static_cast<Eigen::Index>(3 * k)) = states[k].direction;
+  return directions;
+}
+
+// How far the platform moves with all seen directions held: along the motion that they do not tell, by
+// differences, step by step, and back onto the directions after each.
+double UnseenWay(const RobotAtPose& random, const std::vector<int>& legs) {
+  constexpr double kStep = 2e-3, kDifference = 1e-6;
+  constexpr int kSteps = 12, kCorrections = 8;
+  const Eigen::VectorXd wanted = DirectionsAt(random.robot, legs, random.pose);
+  const auto rates_at = [&](const Rigid3& pose, const auto& basis) {
+    Eigen::MatrixXd rates(wanted.size(), basis.cols());
+    for (Eigen::Index k = 0; k < basis.cols(); ++k)
+      rates.col(k) = (DirectionsAt(random.robot, legs, Displaced(pose, kDifference * basis.col(k))) -
+                      DirectionsAt(random.robot, legs, Displaced(pose, -kDifference * basis.col(k)))) /
+                     (2 * kDifference);
+    return rates;
+  };
+  Rigid3 pose = random.pose;
+  Vector6d last = Vector6d::Zero();
+  for (int step = 0; step < kSteps; ++step) {
+    const auto basis = MotionBasis(random.robot, pose);
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(rates_at(pose, basis), Eigen::ComputeFullV);
+    svd.setThreshold(1e-6);
+    const Eigen::Index unseen = std::max<Eigen::Index>(basis.cols() - svd.rank(), 1);
+    const Eigen::MatrixXd kernel = basis * svd.matrixV().rightCols(unseen);
+    last = step == 0 ? Vector6d(kernel.col(0)) : Vector6d(kernel * (kernel.transpose() * last)).normalized();
+    Rigid3 next = BackToMotion(random.robot, Displaced(pose, kStep * last));
+    for (int i = 0; i < kCorrections; ++i) {
+      const auto of_next = MotionBasis(random.robot, next);
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+      solver.setThreshold(1e-6);  // of differences
+      solver.compute(rates_at(next, of_next));
+      const Eigen::VectorXd off = wanted - DirectionsAt(random.robot, legs, next);
+      next = BackToMotion(random.robot, Displaced(next, of_next * solver.solve(off)));
+    }
+    if ((wanted - DirectionsAt(random.robot, legs, next)).norm() > 1e-8) break;
+    pose = next;
+  }
+  return Displacement(random.pose, pose).norm();
+}
+
+std::vector<std::vector<int>> SubsetsOf(const ParallelRobot& robot) {
+  std::vector<std::vector<int>> subsets;
+  for (unsigned bits = 1; bits < 1u << robot.legs.size(); ++bits) {
+    subsets.emplace_back();
+    for (int leg = 0; leg < static_cast<int>(robot.legs.size()); ++leg)
+      if ((bits >> leg & 1u) != 0) subsets.back().push_back(leg);
+  }
+  return subsets;
+}
+
+// All that infinite can mean: from such a pose the platform goes on and on with every direction held; and
+// where it is not said, the pose is alone.
+TEST(AssemblyModes, AreInfiniteExactlyWhereThePlatformMovesWithAllDirectionsHeld) {
+  std::mt19937_64 generator = TestGenerator();
+  const std::vector<RobotAtPose> robots = {RandomPlanarRobot(generator, {"_RRR", "_PRR", "_RRR", "R_PR"}),
+                                           RandomPlanarRobot(generator, {"_RRR", "_RRR", "_PRP"}),
+                                           RandomPlanarRobot(generator, {"_RRR", "_PRP", "_RRP"}),
+                                           RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS"}),
+                                           RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS", "R_PS"}),
+                                           RandomSpatialRobot(generator, {"R_PS", "U_PS", "U_PS", "R_PS"}),
+                                           RandomSpatialRobot(generator, {"_RUS", "U_PS", "U_PS", "U_PS"}),
+                                           RandomTranslationRobot(generator, kDeltaChains),
+                                           RandomSchoenfliesRobot(generator, "_R-{2-US}")};
+  int infinite = 0, others = 0;
+  for (const RobotAtPose& random : robots)
+    for (const std::vector<int>& legs : SubsetsOf(random.robot)) {
+      SCOPED_TRACE(random.robot.name + " " + testing::PrintToString(legs));
+      const AssemblyModes found = AssemblyModesOf(random.robot, legs, random.pose);
+      const bool is_infinite = found.status == AssemblyModesStatus::kInfinite;
+      EXPECT_EQ(is_infinite, UnseenWay(random, legs) > 0.01) << found.why;
+      EXPECT_NE(found.why.empty(), found.status != AssemblyModesStatus::kComplete);
+      ++(is_infinite ? infinite : others);
+    }
+  EXPECT_GT(infinite, 20);
+  EXPECT_GT(others, 20);
+}
+
+// A first-order turn about z that no direction shows, A_i = C_i - l z x C_i, but no motion: of four legs
+// three have their platform joints on one line and leave the platform free by themselves, all together do
+// not.
+TEST(AssemblyModes, OfASingularPoseAreNotInfiniteForThreeLegsThatLeaveThePlatformFree) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 20; ++n) {
+    RobotAtPose random = RandomSpatialRobot(generator, kHexapodChains);
+    random.pose = random.robot.home = {};
+    for (size_t i = 0; i < 6; ++i) {
+      RobotLeg& leg = random.robot.legs[i];
+      leg.platform_joint_m = {Uniform(generator, -0.3, 0.3), Uniform(generator, -0.3, 0.3), 0.0};
+      if (i < 3) leg.platform_joint_m = {0.1 + 0.1 * static_cast<double>(i), 0.15, 0.0};
+      leg.base_joint_m = leg.platform_joint_m -
+                         Uniform(generator, 0.5, 2) * Eigen::Vector3d::UnitZ().cross(leg.platform_joint_m);
+    }
+    EXPECT_EQ(AssemblyModesOf(random.robot, {0, 1, 2}, random.pose).status, AssemblyModesStatus::kInfinite);
+    EXPECT_EQ(AssemblyModesOf(random.robot, {0, 1, 2, 3}, random.pose).status,
+              AssemblyModesStatus::kIncomplete);
+    EXPECT_LT(UnseenWay(random, {0, 1, 2, 3}), 0.01);
+  }
+}
+
+// Three legs are seen; the fourth, of RPS, keeps its joint in a plane all the same.
+TEST(AssemblyModes, ArePosesThatLegsThatAreNotSeenAllow) {
+  std::mt19937_64 generator = TestGenerator();
+  int modes = 0;
+  for (int n = 0; n < 100; ++n) {
+    const RobotAtPose random = RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS", "R_PS"});
+    for (const AssemblyMode& mode : AssemblyModesOf(random.robot, {0, 1, 2}, random.pose).modes) {
+      const RobotLeg& leg = random.robot.legs[3];
+      const Eigen::Vector3d c_m = mode.base_from_platform * leg.platform_joint_m;
+      EXPECT_NEAR(leg.first_axis.dot(c_m - leg.base_joint_m), 0, 1e-8);
+      ++modes;
+    }
+  }
+  EXPECT_GE(modes, 100);
 }
 
 RobotAtPose WithParallelRails(RobotAtPose random) {
