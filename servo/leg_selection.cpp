@@ -56,11 +56,21 @@ bool IsAtGoal(const DirectionServoRun& run, const Rigid3& goal) {
   return Displacement(run.samples.back().base_from_platform, goal).norm() < kAtGoal;
 }
 
-// Every so many of the simulated poses, both ends included.
+// Of the simulated poses as many, about equally far from each other, both ends included: time alone would
+// leave out most of where the servo is fast.
 std::vector<Rigid3> Waypoints(const DirectionServoRun& run, const Rigid3& goal) {
-  const size_t stride = run.samples.size() / kMostWaypoints + 1;
+  std::vector<double> way = {0};
+  for (size_t i = 1; i < run.samples.size(); ++i)
+    way.push_back(
+        way.back() +
+        Displacement(run.samples[i - 1].base_from_platform, run.samples[i].base_from_platform).norm());
   std::vector<Rigid3> poses;
-  for (size_t i = 0; i < run.samples.size(); i += stride) poses.push_back(run.samples[i].base_from_platform);
+  double next = 0;
+  for (size_t i = 0; i < run.samples.size(); ++i) {
+    if (way[i] < next) continue;
+    poses.push_back(run.samples[i].base_from_platform);
+    next = way[i] + way.back() / kMostWaypoints;
+  }
   poses.push_back(goal);
   return poses;
 }
@@ -80,7 +90,7 @@ class Judge {
     if (IsRuledOut(set)) return set;
     set.modes = AssemblyModesOf(robot_, legs, to_);
     set.path = CertifyStraightPath(robot_, RobotKind::kHidden, legs, from_, to_);
-    PredictErrors(set);
+    PredictErrors(set, way_);
     if (set.path.verdict == PathVerdict::kFree) {
       set.verdict = LegSetVerdict::kPossible;
     } else if (set.path.verdict == PathVerdict::kSingular || set.path.verdict == PathVerdict::kOutOfReach) {
@@ -133,14 +143,14 @@ class Judge {
                                                           : LegSetVerdict::kUncontrollable;
   }
 
-  // Along the straight way.
-  void PredictErrors(JudgedLegSet& set) const {
+  // At the goal and along a way.
+  void PredictErrors(JudgedLegSet& set, const std::vector<Rigid3>& way) const {
     const auto at = [&](const Rigid3& pose) {
       return LargestErrorByConeNoise(robot_, set.legs, pose, options_.cone_half_angle_rad);
     };
     set.error_at_goal = at(to_);
     set.error_on_path = set.error_at_goal;
-    for (const Rigid3& pose : way_) set.error_on_path = Larger(set.error_on_path, at(pose));
+    for (const Rigid3& pose : way) set.error_on_path = Larger(set.error_on_path, at(pose));
   }
 
   // The straight path may pass a singularity that the servo's own way does not.
@@ -151,8 +161,8 @@ class Judge {
       set.why = set.path.why + "; simulated, the servo ends elsewhere";
       return;
     }
-    const PathCertificate own_way =
-        CertifyPath(robot_, RobotKind::kHidden, set.legs, Waypoints(*set.simulated, to_));
+    const std::vector<Rigid3> waypoints = Waypoints(*set.simulated, to_);
+    const PathCertificate own_way = CertifyPath(robot_, RobotKind::kHidden, set.legs, waypoints);
     if (own_way.verdict != PathVerdict::kFree) {
       set.verdict = LegSetVerdict::kArrives;
       set.why = set.path.why + "; simulated, the servo arrives, which is no proof";
@@ -160,6 +170,7 @@ class Judge {
     }
     set.path = own_way;
     set.is_path_simulated = true;
+    PredictErrors(set, waypoints);
     set.verdict = LegSetVerdict::kPossible;
   }
 

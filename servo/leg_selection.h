@@ -49,6 +49,8 @@ struct JudgedLegSet {
   PathCertificate path;             // of the hidden robot, straight or as it was simulated
   bool is_path_simulated = false;   // the latter
   AssemblyModes modes;              // of the hidden robot at the goal
+  // On the way that `path` certifies, at path_samples poses of a straight one, up to 200 of a simulated one;
+  // where it certifies none on the straight one.
   std::optional<LargestPoseError> error_at_goal, error_on_path;
   std::optional<DirectionServoRun> simulated;  // where the verdict needed it, and of the best
 };

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "core/hidden/assembly_modes.h"
 #include "core/hidden/cone_noise.h"
 #include "core/hidden/singularity_conditions.h"
+#include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
+#include "datasets/parallel_robot_file.h"
 #include "tests/testing/random.h"
 #include "tests/testing/random_robots.h"
 
@@ -156,6 +160,116 @@ TEST(DirectionServo, ReportsTheTrueErrorsOfTheLegsAskedFor) {
                   direction(sample.base_from_platform).cross(direction(random.pose)).norm(), 1e-14);
     }
   }
+}
+
+const std::vector<int> kQuattroLegs = {0, 1, 2, 3};
+
+ParallelRobot ShippedQuattro() {
+  return ReadParallelRobot(LEGIBLE_SOURCE_DIR "/datasets/robots/quattro.yaml");
+}
+
+Rigid3 At(double x_m, double y_m, double z_m) { return {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}}; }
+
+DirectionServoRun QuattroServo(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to) {
+  std::mt19937 no_noise(0);
+  return SimulateDirectionServo(robot, kQuattroLegs, from, to, {}, no_noise);
+}
+
+// All u x u*, one after the other.
+Eigen::VectorXd ErrorsAt(const ParallelRobot& robot, const Rigid3& pose, const Rigid3& goal) {
+  Eigen::VectorXd errors(12);
+  const auto here = StatesOf(robot, kQuattroLegs, pose).value();
+  const auto there = StatesOf(robot, kQuattroLegs, goal).value();
+  for (size_t k = 0; k < 4; ++k)
+    errors.segment<3>(static_cast<Eigen::Index>(3 * k)) = here[k].direction.cross(there[k].direction);
+  return errors;
+}
+
+// The least-squares step on the errors, their derivative by differences: zero where the sum of their squares
+// is least among the poses around.
+double LeastSquaresStep(const ParallelRobot& robot, const Rigid3& pose, const Rigid3& goal) {
+  constexpr double kDifference = 1e-6;
+  const auto basis = MotionBasis(robot, pose);
+  Eigen::MatrixXd rates(12, basis.cols());
+  for (Eigen::Index k = 0; k < basis.cols(); ++k)
+    rates.col(k) = (ErrorsAt(robot, Displaced(pose, kDifference * basis.col(k)), goal) -
+                    ErrorsAt(robot, Displaced(pose, -kDifference * basis.col(k)), goal)) /
+                   (2 * kDifference);
+  return rates.colPivHouseholderQr().solve(ErrorsAt(robot, pose, goal)).norm();
+}
+
+// How far C is from where its leg, an arm that turns in a plane and a rod, is stretched or folded.
+double ToBoundary_m(const RobotLeg& leg, const Rigid3& pose) {
+  const Eigen::Vector3d c_m = pose * leg.platform_joint_m + leg.carried_offset_m - leg.base_joint_m;
+  const double height_m = leg.first_axis.dot(c_m);
+  const double in_plane_m = (c_m - height_m * leg.first_axis).norm();
+  const double rod_in_plane_m = std::sqrt(leg.rod_m * leg.rod_m - height_m * height_m);
+  return std::min(std::abs(in_plane_m - (leg.arm_m + rod_in_plane_m)),
+                  std::abs(in_plane_m - std::abs(leg.arm_m - rod_in_plane_m)));
+}
+double ToBoundary_m(const ParallelRobot& robot, const Rigid3& pose) {
+  double least_m = 1;
+  for (const RobotLeg& leg : robot.legs) least_m = std::min(least_m, ToBoundary_m(leg, pose));
+  return least_m;
+}
+
+void ExpectLocalMinimum(const ParallelRobot& robot, const DirectionServoRun& run, const Rigid3& goal) {
+  const DirectionServoSample& last = run.samples.back();
+  EXPECT_GT(*std::max_element(last.errors_rad.begin(), last.errors_rad.end()), 1e-4);
+  EXPECT_LT(LeastSquaresStep(robot, last.base_from_platform, goal), 1e-6);
+}
+
+void ExpectBoundary(const ParallelRobot& robot, const DirectionServoRun& run) {
+  const DirectionServoSample& last = run.samples.back();
+  EXPECT_GT(*std::max_element(last.errors_rad.begin(), last.errors_rad.end()), 1e-4);
+  EXPECT_LT(ToBoundary_m(robot, last.base_from_platform), 1e-6);
+}
+
+// With more legs than the platform needs the errors can lie in the kernel of L^+ (docs/reproduction.md).
+TEST(DirectionServo, OfAllLegsOfAQuattroMayStandInALocalMinimum) {
+  const ParallelRobot robot = ShippedQuattro();
+  const Rigid3 goal = At(-0.020, -0.055, -0.719);
+  const DirectionServoRun run = QuattroServo(robot, At(0.355, 0.084, -0.541), goal);
+  EXPECT_EQ(run.end, DirectionServoEnd::kLocalMinimum);
+  EXPECT_STREQ(ToString(run.end), "local-minimum");
+  ExpectLocalMinimum(robot, run, goal);
+}
+
+// A leg is stretched before the others are where they should be.
+TEST(DirectionServo, OfAllLegsOfAQuattroMayEndAtTheBoundaryOfALeg) {
+  const ParallelRobot robot = ShippedQuattro();
+  const DirectionServoRun run = QuattroServo(robot, At(-0.495, 0.294, -0.649), At(0.601, -0.446, -0.636));
+  EXPECT_EQ(run.end, DirectionServoEnd::kAtBoundary);
+  EXPECT_STREQ(ToString(run.end), "at-boundary");
+  ExpectBoundary(robot, run);
+}
+
+TEST(DirectionServo, EndsForTheReasonThatItNames) {
+  std::mt19937_64 generator = TestGenerator();
+  const ParallelRobot robot = ShippedQuattro();
+  const auto draw = [&]() -> std::optional<Rigid3> {
+    const Eigen::Vector3d p = UniformVector(generator, -1, 1).cwiseProduct(Eigen::Vector3d(0.65, 0.65, 0.3));
+    const Rigid3 pose = At(p.x(), p.y(), p.z() - 0.75);
+    if (!StatesOf(robot, kQuattroLegs, pose)) return std::nullopt;
+    return pose;
+  };
+  int minima = 0, boundaries = 0;
+  for (int n = 0; n < 600; ++n) {
+    const auto from = draw(), to = draw();
+    if (!from || !to) continue;
+    const DirectionServoRun run = QuattroServo(robot, *from, *to);
+    if (run.end == DirectionServoEnd::kLocalMinimum) {
+      ExpectLocalMinimum(robot, run, *to);
+      ++minima;
+    } else if (run.end == DirectionServoEnd::kAtBoundary) {
+      ExpectBoundary(robot, run);
+      ++boundaries;
+    } else if (run.end == DirectionServoEnd::kConverged) {
+      EXPECT_LT(ErrorsAt(robot, run.samples.back().base_from_platform, *to).norm(), 2 * 1e-7);
+    }
+  }
+  EXPECT_GT(minima, 0);
+  EXPECT_GT(boundaries, 0);
 }
 
 TEST(DirectionServo, RefusesAStartOrGoalOutOfReach) {

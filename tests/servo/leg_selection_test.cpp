@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 
+#include "core/hidden/singularity_conditions.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
 #include "tests/testing/random.h"
@@ -145,6 +146,50 @@ TEST(SelectLegs, RanksByTheErrorAtTheGoal) {
     last = displacement_m;
   }
   EXPECT_GT(last, 0);
+}
+
+// Whether the straight way passes singularities, and both ends lie on one side of them.
+bool PassesAndComesBack(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& from,
+                        const Rigid3& to) {
+  constexpr int kSamples = 20;
+  bool has_passed = false;
+  double side = 0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const Rigid3 pose = Displaced(from, i / static_cast<double>(kSamples) * Displacement(from, to));
+    const auto measure = Type2MeasureOf(robot, RobotKind::kHidden, legs, pose);
+    if (!measure) return false;
+    if (i == 0) side = *measure->geometric;
+    has_passed = has_passed || *measure->geometric * side < 0;
+    if (i == kSamples) return has_passed && *measure->geometric * side > 0;
+  }
+  return false;
+}
+
+// Where the straight way is not proved free but the simulated one is, errors are of that one.
+TEST(SelectLegs, PredictsErrorsOnTheWayThatIsProved) {
+  std::mt19937_64 generator = TestGenerator();
+  LegSelectionOptions options;
+  options.leg_sets = {{0, 1}};
+  int simulated = 0;
+  for (int n = 0; n < 10000; ++n) {
+    const RobotAtPose random = RandomPlanarRobot(generator, {"_RRR", "_RRR"});
+    const Rigid3 to = RandomPoseNear(generator, random.robot, random.pose, 0.8);
+    if (!PassesAndComesBack(random.robot, options.leg_sets[0], random.pose, to)) continue;
+    const JudgedLegSet set = SelectLegs(random.robot, random.pose, to, options).sets.front();
+    if (!set.is_path_simulated) continue;
+    EXPECT_EQ(set.verdict, LegSetVerdict::kPossible);
+    double largest_m = 0;
+    for (const DirectionServoSample& sample : set.simulated->samples) {
+      const auto error = LargestErrorByConeNoise(random.robot, set.legs, sample.base_from_platform,
+                                                 options.cone_half_angle_rad);
+      largest_m = std::max(largest_m, error->position_m);
+    }
+    EXPECT_LE(set.error_on_path->position_m, 1.002 * largest_m);
+    EXPECT_GE(set.error_on_path->position_m, 0.5 * largest_m);
+    ++simulated;
+  }
+  std::cout << simulated << " ways as simulated" << std::endl;
+  EXPECT_GT(simulated, 3);
 }
 
 TEST(SelectLegs, PassesOverLegsThatDoNotShow) {
