@@ -1,13 +1,13 @@
 #include "apps/watched_legs.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <numeric>
 #include <utility>
 
 #include "apps/leg_visibility.h"
 #include "apps/legs_settings.h"
+#include "apps/wording.h"
 #include "core/geometry/orientation.h"
 #include "core/robots/mechanism.h"
 #include "datasets/input_error.h"
@@ -23,11 +23,6 @@ std::vector<int> Watched(const ControlLawOptions& law) {
   for (int leg = 0; leg < kLegCount; ++leg)
     if (law.legs[static_cast<size_t>(leg)]) legs.push_back(leg);
   return legs;
-}
-
-std::string LegList(std::vector<int> legs) {
-  for (int& leg : legs) ++leg;
-  return fmt::format("{}", fmt::join(legs, ","));
 }
 
 // Nothing where the readings tell none; that is the servo's to deal with.
@@ -96,12 +91,12 @@ void WarnOfOtherModes(PreparedServo& prepared, const JudgedLegSet& set, const Ri
       continue;
     prepared.warnings.push_back(fmt::format(
         "legs {} point as they do at the goal at {} as well: the servo may end there; see `legible legs`",
-        LegList(set.legs), FromGoalText(goal, pose)));
+        LegNumbers(set.legs), FromGoalText(goal, pose)));
   }
   if (set.modes.status == AssemblyModesStatus::kIncomplete ||
       set.modes.status == AssemblyModesStatus::kInfinite)
     prepared.warnings.push_back(fmt::format("legs {} may point as they do at the goal elsewhere too: {}",
-                                            LegList(set.legs), set.modes.why));
+                                            LegNumbers(set.legs), set.modes.why));
 }
 
 void WarnOfWay(PreparedServo& prepared, const std::string& what, const PathCertificate& way) {
@@ -129,7 +124,7 @@ void SettleWatchedLegs(PreparedServo& prepared, ProgressLine& progress) {
                                                           : JudgeNamed(robot, Watched(law), *from, *goal);
   DemandGoal(prepared.setup.goal, law);
   WarnOfOtherModes(prepared, set, *goal);
-  WarnOfWay(prepared, "what legs " + LegList(set.legs) + " show", set.path);
+  WarnOfWay(prepared, "what legs " + LegNumbers(set.legs) + " show", set.path);
   std::vector<int> every(kLegCount);
   std::iota(every.begin(), every.end(), 0);
   WarnOfWay(prepared, "the robot itself", CertifyStraightPath(robot, RobotKind::kReal, every, *from, *goal));

@@ -1,10 +1,12 @@
-// How counts and warnings are put into words.
+// How counts, legs and warnings are put into words.
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cctype>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace legible {
@@ -18,6 +20,11 @@ inline std::string Plural(int count, const std::string& noun) {
 inline std::vector<int> FromOne(std::vector<int> legs) {
   for (int& leg : legs) ++leg;
   return legs;
+}
+
+// "1,2,6", of legs that count from 0.
+inline std::string LegNumbers(const std::vector<int>& legs, std::string_view between = ",") {
+  return fmt::format("{}", fmt::join(FromOne(legs), between));
 }
 
 // With its first letter in capitals.
