@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build/release/tests/reproduction/section_4 build/reproduction
-build/release/tests/reproduction/hidden_robots | tee build/reproduction/hidden_robots.md
+build/release/tests/reproduction/hidden_robots build/reproduction/servos | tee build/reproduction/hidden_robots.md
 printf '\n'
 legs() { build/release/apps/legible legs datasets/robots/quattro.yaml "$@" --format json; }
 legs --from "0 0 -0.7 0 0 0" --to "0.1 0 -0.7 0 0 0" --legs 2,3 --legs 2,4 --map x=-0.5:0.5,y=-0.5:0.5 \

@@ -1,13 +1,14 @@
 #include "tests/reproduction/hexapod_misled.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <random>
 
+#include "apps/wording.h"
 #include "core/robots/mechanism.h"
 #include "servo/leg_selection.h"
+#include "tests/testing/hexapod_servo.h"
 
 namespace legible {
 namespace {
@@ -16,6 +17,7 @@ constexpr unsigned kSeed = 2016;
 constexpr double kReach_m = 0.12, kTurn_rad = 0.9;        // about home, of goals
 constexpr double kStart_m = 0.01, kStartTurn_rad = 0.05;  // about the other mode, of starts
 constexpr double kElsewhere = 0.3;                        // m and rad from the goal, at least
+constexpr int kChosenWays = 10;
 
 Rigid3 Near(const Rigid3& pose, double reach_m, double turn_rad, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -65,19 +67,42 @@ std::string PoseText(const Rigid3& pose) {
                      w.z());
 }
 
-std::string LegList(std::vector<int> legs) {
-  for (int& leg : legs) ++leg;
-  return fmt::format("{}", fmt::join(legs, ", "));
-}
-
 std::string RowOf(const ParallelRobot& robot, const std::vector<int>& legs, const MisledWay& way,
                   const char* why) {
   const DirectionServoRun run = Servo(robot, legs, way.from, way.to);
   const DirectionServoSample& last = run.samples.back();
   const Vector6d off = Displacement(way.to, last.base_from_platform);
-  return fmt::format("| {} | {} | {} | {:.1f} mm, {:.2f} rad | {:.2g} |\n", LegList(legs), why,
+  return fmt::format("| {} | {} | {} | {:.1f} mm, {:.2f} rad | {:.2g} |\n", LegNumbers(legs, ", "), why,
                      PoseText(last.base_from_platform), 1e3 * off.head<3>().norm(), off.tail<3>().norm(),
                      *std::max_element(last.errors_rad.begin(), last.errors_rad.end()));
+}
+
+std::string OffText(const Rigid3& from, const Rigid3& to) {
+  const Vector6d off = Displacement(from, to);
+  return fmt::format("{:.2f} mm, {:.4f} rad", 1e3 * off.head<3>().norm(), off.tail<3>().norm());
+}
+
+std::string ErrorText(const ServoedHexapod& servoed) {
+  return servoed.unit == "rad" ? fmt::format("{:.2f} mrad", 1e3 * servoed.final_error)
+                               : fmt::format("{:.2f} {}", servoed.final_error, servoed.unit);
+}
+
+// What the warnings before it moved say of where else it may end.
+std::string WarnedText(const ServoedHexapod& servoed) {
+  std::string text;
+  for (const Eigen::Vector3d& p : WarnedPositions_m(servoed.said))
+    text += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", text.empty() ? "" : "; ", p.x(), p.y(), p.z());
+  return text.empty() ? "none" : text;
+}
+
+std::string RowByImages(const std::filesystem::path& folder, const MisledWay& way, const std::string& mode,
+                        const std::string& legs) {
+  const ServoedHexapod servoed =
+      ServoHexapod(folder / (mode + "-" + legs), {way.from, way.to}, {"--mode", mode, "--legs", legs});
+  return fmt::format("| {} | {}{} | {} | {}, {:.1f} s | {} | {} | {} | {} |\n", mode,
+                     LegNumbers(servoed.legs, ", "), legs == "auto" ? " (chosen)" : "", WarnedText(servoed),
+                     servoed.status, servoed.time_s, ErrorText(servoed), PoseText(servoed.true_end),
+                     OffText(way.to, servoed.true_end), OffText(way.ends_at, servoed.true_end));
 }
 
 }  // namespace
@@ -113,6 +138,34 @@ std::string MisledTable(const GoughStewart& robot, const MisledWay& way) {
     if (set.verdict == LegSetVerdict::kPossible) ++possible;
   return text +
          fmt::format("\nOf the {} sets of legs {} are possible here.\n", selection.sets.size(), possible);
+}
+
+std::string MisledByImagesTable(const std::filesystem::path& folder, const MisledWay& way) {
+  std::string text =
+      "| mode | legs | warned of (m) | ended | error seen | true end | from the goal | from the other mode "
+      "|\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const char* mode : {"directions", "edges"})
+    for (const std::string& legs : {LegNumbers(way.legs), std::string("auto")})
+      text += RowByImages(folder, way, mode, legs);
+  return text;
+}
+
+std::string ChosenLegsTable(const std::filesystem::path& folder, const GoughStewart& robot) {
+  const ParallelRobot general = ParallelRobotOf(robot);
+  std::string text = fmt::format(
+      "Seed {}.\n\n| from | to | chosen | other modes | ended | error seen | from the goal |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n",
+      kHexapodWaysSeed);
+  int number = 0;
+  for (const HexapodWay& way : DrawHexapodWays(robot, kChosenWays)) {
+    const ServoedHexapod servoed = ServoHexapod(folder / std::to_string(++number), way, {"--legs", "auto"});
+    const AssemblyModes modes = AssemblyModesOf(general, servoed.legs, way.to);
+    text +=
+        fmt::format("| {} | {} | {} | {} | {}, {:.1f} s | {} | {} |\n", PoseText(way.from), PoseText(way.to),
+                    LegNumbers(servoed.legs, ", "), modes.modes.size() - 1, servoed.status, servoed.time_s,
+                    ErrorText(servoed), OffText(way.to, servoed.true_end));
+  }
+  return text;
 }
 
 }  // namespace legible

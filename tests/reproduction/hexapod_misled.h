@@ -1,12 +1,14 @@
-// The 3-UPS hidden in a hexapod: a way on which a servo of three legs' directions ends at another pose with
-// all errors at zero.
+// The 3-UPS hidden in a hexapod: a way on which a servo of three legs ends at another pose with all errors at
+// zero, first by directions alone, then by `legible servo` with images; and what the choice of legs makes of
+// it.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/robots/gough_stewart.h"
-#include "core/robots/parallel_robot.h"
 
 namespace legible {
 
@@ -22,7 +24,14 @@ struct MisledWay {
 // tries.
 std::optional<MisledWay> FindMisledWay(const GoughStewart& robot, int tries);
 
-// Markdown: the way, where three legs lead, and what the choice of legs makes of it.
+// Markdown: the way, where the directions of three legs lead, and what the choice of legs makes of it.
 std::string MisledTable(const GoughStewart& robot, const MisledWay& way);
+
+// Markdown: the same way by `legible servo` with images, by directions and by edges, with these legs and with
+// the choice. Logs in the folder.
+std::string MisledByImagesTable(const std::filesystem::path& folder, const MisledWay& way);
+
+// Markdown: `legible servo --legs auto` with images on ways drawn at random, one a row. Logs in the folder.
+std::string ChosenLegsTable(const std::filesystem::path& folder, const GoughStewart& robot);
 
 }  // namespace legible

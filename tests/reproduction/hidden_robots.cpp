@@ -1,13 +1,14 @@
 // The tables of Briot et al. (2016) again: hidden legs, assembly modes, the Quattro's simulations and errors;
-// and a hexapod that three legs mislead. Markdown on stdout.
+// and a hexapod that three legs mislead. Markdown on stdout; logs of servos in the folder that is named.
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 
-#include "datasets/robot_file.h"
 #include "tests/reproduction/hexapod_misled.h"
 #include "tests/reproduction/hidden_families.h"
 #include "tests/reproduction/quattro.h"
+#include "tests/testing/hexapod_servo.h"
 
 namespace legible {
 namespace {
@@ -30,21 +31,29 @@ void PrintQuattro() {
              AccuracyTable(robot));
 }
 
-void PrintHexapod() {
-  const GoughStewart robot = ReadRobot(LEGIBLE_SOURCE_DIR "/datasets/hexapod/robot.yaml");
+void PrintHexapod(const std::filesystem::path& folder) {
+  const GoughStewart robot = ShippedHexapod().robot;
   fmt::print("\n## Hexapod misled by three legs\n\n");
-  const auto way = FindMisledWay(robot, kTries);
-  fmt::print("{}", way ? MisledTable(robot, *way) : fmt::format("None found in {} goals.\n", kTries));
+  if (const auto way = FindMisledWay(robot, kTries))
+    fmt::print("{}\n{}", MisledTable(robot, *way), MisledByImagesTable(folder / "misled", *way));
+  else
+    fmt::print("None found in {} goals.\n", kTries);
+  std::fflush(stdout);
+  fmt::print("\n## Hexapod by the legs chosen\n\n{}", ChosenLegsTable(folder / "chosen", robot));
 }
 
 }  // namespace
 }  // namespace legible
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} FOLDER\n", argv[0]);
+    return 2;
+  }
   fmt::print("## Hidden legs\n\n{}\n## Assembly modes\n\n{}\n## Controllability\n\n{}",
              legible::HiddenLegsTable(), legible::ModeCountsTable(), legible::ControllabilityTable());
   std::fflush(stdout);
   legible::PrintQuattro();
   std::fflush(stdout);
-  legible::PrintHexapod();
+  legible::PrintHexapod(argv[1]);
 }

@@ -1,7 +1,6 @@
 #include "tests/reproduction/quattro.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,11 +11,13 @@
 #include <random>
 #include <unsupported/Eigen/NonLinearOptimization>
 
+#include "apps/wording.h"
 #include "core/geometry/orientation.h"
 #include "core/hidden/assembly_modes.h"
 #include "core/hidden/cone_noise.h"
 #include "core/hidden/path_certificate.h"
 #include "core/hidden/singularity_conditions.h"
+#include "datasets/parallel_robot_file.h"
 #include "servo/direction_simulation.h"
 
 namespace legible {
@@ -32,10 +33,7 @@ const Legs kAllLegs = {0, 1, 2, 3};
 
 Rigid3 At(double x_m, double y_m, double z_m) { return {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}}; }
 
-std::string LegList(Legs legs) {
-  for (int& leg : legs) ++leg;
-  return fmt::format("{{{}}}", fmt::join(legs, ", "));
-}
+std::string LegList(const Legs& legs) { return fmt::format("{{{}}}", LegNumbers(legs, ", ")); }
 
 double Turn_rad(const Rigid3& pose) { return VectorFromRotation(pose.rotation).z(); }
 
@@ -155,28 +153,15 @@ std::string EndsTable(const ParallelRobot& robot) {
 }
 
 ParallelRobot Quattro(const QuattroPlatform& platform) {
-  constexpr std::array<double, 4> kAngles_deg = {-135, -45, 45, 135};
   constexpr std::array<std::array<double, 2>, 4> kFromD_m = {
       {{-0.066, -0.048}, {0.066, -0.048}, {0.066, 0.048}, {-0.066, 0.048}}};
-  ParallelRobot robot;
-  robot.name = "Adept Quattro";
-  robot.motion = PlatformMotion::kSchoenflies;
-  robot.home = At(0, 0, -0.7);
+  static const ParallelRobot kShipped = ReadParallelRobot(LEGIBLE_SOURCE_DIR "/datasets/robots/quattro.yaml");
+  ParallelRobot robot = kShipped;
   for (size_t i = 0; i < 4; ++i) {
-    const double angle_rad = kAngles_deg[i] * kDegree_rad;
-    const Eigen::Vector3d radial(std::cos(angle_rad), std::sin(angle_rad), 0);
     const bool is_on_second_half = i >= 2;
-    RobotLeg leg;
-    leg.chain = ChainFromText("_R-{2-US}");
-    leg.base_joint_m = 0.275 * radial;
-    leg.zero_direction = radial;
-    leg.first_axis = radial.cross(Eigen::Vector3d::UnitZ());
-    leg.arm_m = 0.380;
-    leg.rod_m = 0.825;
     const double d_y_m = is_on_second_half ? platform.y_m - platform.arm_m : -platform.y_m;
-    leg.carried_offset_m = {platform.x_m + kFromD_m[i][0], d_y_m + kFromD_m[i][1], 0};
-    if (is_on_second_half) leg.platform_joint_m = {0, platform.arm_m, 0};
-    robot.legs.push_back(leg);
+    robot.legs[i].carried_offset_m = {platform.x_m + kFromD_m[i][0], d_y_m + kFromD_m[i][1], 0};
+    robot.legs[i].platform_joint_m = {0, is_on_second_half ? platform.arm_m : 0, 0};
   }
   return robot;
 }

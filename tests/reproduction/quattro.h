@@ -16,7 +16,7 @@ struct QuattroPlatform {
   double x_m = 0, y_m = 0, arm_m = 0;
 };
 
-// Appendix B with that platform.
+// Appendix B, as datasets/robots/quattro.yaml has it, with that platform.
 ParallelRobot Quattro(const QuattroPlatform& platform);
 
 struct PublishedMode {
