@@ -53,6 +53,12 @@ RealBall Cos(const RealBall& x) {
   return cosine;
 }
 
+RealBall Hull(double a, double b) {
+  RealBall hull;
+  arb_union(hull.get(), RealBall(a).get(), RealBall(b).get(), kBallPrecision_bits);
+  return hull;
+}
+
 bool Contains(const RealBall& ball, double number) {
   return arb_contains(ball.get(), RealBall(number).get()) != 0;
 }
@@ -61,14 +67,15 @@ bool Overlaps(const RealBall& a, const RealBall& b) { return arb_overlaps(a.get(
 
 double MidpointOf(const RealBall& ball) { return arf_get_d(arb_midref(ball.get()), ARF_RND_NEAR); }
 
-double RadiusOf(const RealBall& ball) {
-  RealBall from_midpoint = ball - RealBall(MidpointOf(ball));
-  mag_t distance;
-  mag_init(distance);
-  arb_get_mag(distance, from_midpoint.get());
-  const double radius = UpperDouble(distance);
-  mag_clear(distance);
-  return radius;
+double RadiusOf(const RealBall& ball) { return LargestModulus(ball - RealBall(MidpointOf(ball))); }
+
+double LargestModulus(const RealBall& ball) {
+  mag_t modulus;
+  mag_init(modulus);
+  arb_get_mag(modulus, ball.get());
+  const double bound = UpperDouble(modulus);
+  mag_clear(modulus);
+  return bound;
 }
 
 double LowerBound(const RealBall& ball) { return Bound(ball, arb_get_lbound_arf, ARF_RND_FLOOR); }

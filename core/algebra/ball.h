@@ -78,6 +78,11 @@ RealBall Sqrt(const RealBall& x);                            // not a number whe
 inline RealBall sqrt(const RealBall& x) { return Sqrt(x); }  // for templates of doubles and balls
 RealBall Sin(const RealBall& x);
 RealBall Cos(const RealBall& x);
+inline RealBall sin(const RealBall& x) { return Sin(x); }
+inline RealBall cos(const RealBall& x) { return Cos(x); }
+
+// Every number from one to the other.
+RealBall Hull(double a, double b);
 
 // Whether the ball contains a number; whether two balls have a number in common. What is not a number
 // contains and overlaps everything.
@@ -87,6 +92,7 @@ bool Overlaps(const RealBall& a, const RealBall& b);
 double MidpointOf(const RealBall& ball);  // to the nearest double
 // At least the distance of every number in the ball from MidpointOf(ball).
 double RadiusOf(const RealBall& ball);
+double LargestModulus(const RealBall& ball);  // no number in the ball has a larger one; infinite of NaN
 // No number in the ball is less than the one, or more than the other; NaN if the ball is not a number.
 double LowerBound(const RealBall& ball);
 double UpperBound(const RealBall& ball);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -98,6 +99,17 @@ TEST(RealBall, FunctionsHoldTheirIdentities) {
     EXPECT_NEAR(MidpointOf(sine), std::sin(x), 1e-15);
     EXPECT_NEAR(MidpointOf(cosine), std::cos(x), 1e-15);
     EXPECT_LT(RadiusOf(sine), 1e-15);
+  }
+}
+
+TEST(RealBall, HullHoldsBothEndsAndLittleElse) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int i = 0; i < 50; ++i) {
+    const double a = Uniform(generator, -1, 1), b = Uniform(generator, -1, 1);
+    const RealBall hull = Hull(a, b);
+    EXPECT_TRUE(Contains(hull, a) && Contains(hull, b));
+    EXPECT_NEAR(LowerBound(hull), std::min(a, b), 1e-8);
+    EXPECT_NEAR(UpperBound(hull), std::max(a, b), 1e-8);
   }
 }
 
