@@ -3,184 +3,196 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "core/algebra/ball.h"
+#include "core/algebra/ball_jet.h"
+#include "core/hidden/path_enclosure.h"
 #include "core/hidden/singularity_geometry.h"
 #include "core/robots/leg_geometry.h"
 #include "core/robots/platform_motion.h"
+#include "core/robots/straight_path.h"
 
 namespace legible {
 namespace {
 
-// Of the path; a smaller piece is left undecided.
+// Of the path; a smaller piece is left undecided, and so is what is not proved in so many trials.
 constexpr double kSmallestPiece = 1e-7;
 constexpr double kLargestPiece = 1.0 / 8;
-// By which pieces overlap, and row sums stay below 1.
-constexpr double kMargin = 1e-9;
+constexpr int kMostTrials = 1000;
+// Row sums stay below 1 by it, and pieces are made so long that they come to kAim.
+constexpr double kMargin = 1e-9, kAim = 0.7;
+constexpr int kWeightSteps = 5;
+constexpr double kLeastWeight = 1e-3;
 constexpr int kReachSamples = 64;
 
-using Vector3Ball = leg_geometry::Vector3<RealBall>;
-using Matrix3Ball = Eigen::Matrix<RealBall, 3, 3>;
+// What is asked along the path.
+struct Question {
+  const ParallelRobot& robot;
+  RobotKind kind;
+  const std::vector<int>& legs;
+  double size_m;
 
-// The straight path's pose at s, which may be a whole piece.
-struct PathPose {
-  Vector3Ball translation_m;
-  Matrix3Ball rotation;
+  const RobotLeg& leg(size_t k) const { return robot.legs[static_cast<size_t>(legs[k])]; }
 };
 
-class StraightPath {
- public:
-  StraightPath(const Rigid3& from, const Rigid3& to)
-      : from_(from),
-        travel_m_(to.translation - from.translation),
-        turn_rad_(VectorFromRotation(to.rotation * from.rotation.conjugate())) {}
+template <typename T>
+using MatrixOf = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-  Rigid3 At(double s) const {
-    return {RotationFromVector(s * turn_rad_) * from_.rotation, from_.translation + s * travel_m_};
+// What the legs hold at a pose, by the platform's twist with lengths in the robot's size; nothing where one
+// may not reach it.
+template <typename T>
+std::optional<MatrixOf<T>> HeldAt(const Question& question, const StraightPath& path,
+                                  const leg_geometry::PlatformPose<T>& pose) {
+  const Eigen::Index rows_per_leg = question.kind == RobotKind::kReal ? 1 : 3;
+  const Eigen::Index of_legs = rows_per_leg * static_cast<Eigen::Index>(question.legs.size());
+  MatrixOf<T> held(of_legs + path.corrections(), 6);
+  for (size_t k = 0; k < question.legs.size(); ++k) {
+    const auto placed = leg_geometry::Placed<T>(question.leg(k), pose);
+    if (!(placed.reached.reach > T(0))) return std::nullopt;
+    const Eigen::Index at = rows_per_leg * static_cast<Eigen::Index>(k);
+    if (question.kind == RobotKind::kReal)
+      held.row(at) = leg_geometry::HeldByJoint<T>(question.leg(k), placed).line;
+    else
+      held.template middleRows<3>(at) = leg_geometry::DirectionRate<T>(question.leg(k), placed);
   }
+  held.bottomRows(path.corrections()) = path.SidewaysLines(pose) / T(question.size_m);
+  held.template leftCols<3>() *= T(question.size_m);
+  return MatrixOf<T>(held(Eigen::all, FreeCoordinates(question.robot.motion)));
+}
 
-  // R = (cos a I + (1 - cos a) n n^T + sin a [n]x) R_from, a = s |turn|, n its axis: for any n near to a unit
-  // vector a rotation up to rounding, which is what the path is then taken to be.
-  PathPose Over(const RealBall& s) const {
-    PathPose pose;
-    for (Eigen::Index k = 0; k < 3; ++k)
-      pose.translation_m[k] = RealBall(from_.translation[k]) + s * RealBall(travel_m_[k]);
-    const Eigen::Matrix3d start = from_.rotation.toRotationMatrix();
-    const double angle_rad = turn_rad_.norm();
-    if (angle_rad == 0) {
-      pose.rotation = start.cast<RealBall>();
-      return pose;
-    }
-    const Eigen::Vector3d axis = turn_rad_ / angle_rad;
-    const RealBall turned = s * RealBall(angle_rad);
-    const RealBall cosine = Cos(turned), sine = Sin(turned);
-    const Matrix3Ball along = (axis * (axis.transpose() * start)).cast<RealBall>();
-    const Matrix3Ball across = (Skew(axis) * start).cast<RealBall>();
-    pose.rotation = cosine * (start.cast<RealBall>() - along) + along + sine * across;
-    return pose;
-  }
-
- private:
-  Rigid3 from_;
-  Eigen::Vector3d travel_m_, turn_rad_;
+// M on a piece: what is held at its middle, and its rates all over it by s, which is `half_length` from
+// there.
+struct HeldOnPiece {
+  RealBallMatrix middle, rates;
+  double half_length = 0;
 };
 
-// [I, -[R b]x] in balls.
-Eigen::Matrix<RealBall, 3, 6> PlatformJointVelocity(const Vector3Ball& turned_m) {
-  Eigen::Matrix<RealBall, 3, 6> velocity;
-  velocity.setZero();
-  for (int k = 0; k < 3; ++k) velocity(k, k) = RealBall(1.0);
-  velocity(0, 4) = turned_m[2];
-  velocity(0, 5) = -turned_m[1];
-  velocity(1, 3) = -turned_m[2];
-  velocity(1, 5) = turned_m[0];
-  velocity(2, 3) = turned_m[1];
-  velocity(2, 4) = -turned_m[0];
-  return velocity;
+std::optional<HeldOnPiece> HeldOn(const Question& question, const StraightPath& path,
+                                  const PathPiece& piece) {
+  const auto all = HeldAt<RealBallJet>(question, path, piece.pose);
+  const auto middle = HeldAt<RealBall>(question, path, piece.middle_pose);
+  if (!all || !middle) return std::nullopt;
+  return HeldOnPiece{*middle, all->unaryExpr([](const RealBallJet& jet) { return jet.rate(); }),
+                     piece.half_length};
 }
 
-Vector3Ball Times(const Matrix3Ball& rotation, const Eigen::Vector3d& x) {
-  return rotation * x.cast<RealBall>();
-}
-
-// What a leg holds on the whole piece, rows of M; nothing where it may not reach, with what is known of that.
-struct LegRows {
-  std::optional<Eigen::Matrix<RealBall, Eigen::Dynamic, 6>> rows;
-  bool is_out_of_reach = false;
-};
-
-LegRows RowsOf(const RobotLeg& leg, RobotKind kind, const PathPose& pose) {
-  const Vector3Ball turned_m = Times(pose.rotation, leg.platform_joint_m);
-  const Vector3Ball c = pose.translation_m + turned_m + leg.carried_offset_m.cast<RealBall>();
-  const auto reached = leg_geometry::Reach<RealBall>(leg, SeenSegmentOf(leg.chain), c);
-  if (!(LowerBound(reached.reach) > 0)) return {std::nullopt, UpperBound(reached.reach) < 0};
-  const auto velocity = PlatformJointVelocity(turned_m);
-  if (kind == RobotKind::kReal)
-    return {Eigen::Matrix<RealBall, Eigen::Dynamic, 6>(reached.along_m.transpose() * velocity), false};
-  return {Eigen::Matrix<RealBall, Eigen::Dynamic, 6>(
-              leg_geometry::DirectionByPlatformJoint<RealBall>(reached.along_m, reached.free_direction) *
-              velocity),
-          false};
-}
-
-// |I - Y M| < 1 in the row sum norm.
-bool HasFullRank(const RealBallMatrix& m) {
-  const Eigen::MatrixXd middle = m.unaryExpr([](const RealBall& x) { return MidpointOf(x); });
-  if (!middle.allFinite()) return false;
-  const Eigen::MatrixXd inverse = middle.completeOrthogonalDecomposition().pseudoInverse();
-  const RealBallMatrix product = inverse.cast<RealBall>() * m;
-  for (Eigen::Index i = 0; i < product.rows(); ++i) {
-    double sum = 0;
-    for (Eigen::Index j = 0; j < product.cols(); ++j) {
-      const RealBall off = product(i, j) - RealBall(i == j ? 1.0 : 0.0);
-      sum += std::max(std::abs(LowerBound(off)), std::abs(UpperBound(off)));
-    }
-    if (!(sum < 1 - kMargin)) return false;
+// The least row sum norm found of a matrix whose elements have these moduli, by weights: near to Perron's
+// vector it is near to the spectral radius, the least that any weights give.
+double WeightedNorm(const Eigen::MatrixXd& moduli) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(moduli.cols());
+  for (int i = 0; i < kWeightSteps; ++i) {
+    weights = (moduli * weights).eval();
+    weights.array() += kLeastWeight * weights.maxCoeff() + std::numeric_limits<double>::min();
   }
-  return true;
+  return (moduli * weights).cwiseQuotient(weights).maxCoeff();
 }
 
-// Whether no pose of the piece is singular.
-bool IsFree(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
-            const Eigen::MatrixXd& scaled_basis, const PathPose& pose) {
-  const Eigen::Index rows_per_leg = kind == RobotKind::kReal ? 1 : 3;
-  RealBallMatrix held(rows_per_leg * static_cast<Eigen::Index>(legs.size()), 6);
-  for (size_t k = 0; k < legs.size(); ++k) {
-    const LegRows leg = RowsOf(robot.legs[static_cast<size_t>(legs[k])], kind, pose);
-    if (!leg.rows) return false;
-    held.middleRows(rows_per_leg * static_cast<Eigen::Index>(k), rows_per_leg) = *leg.rows;
-  }
-  return HasFullRank(held * scaled_basis.cast<RealBall>());
-}
-
-// The signed condition of as few legs as the platform needs, enclosed at a pose; nothing where there is none.
-std::optional<RealBall> EnclosedCondition(const ParallelRobot& robot, RobotKind kind,
-                                          const std::vector<int>& legs, const PathPose& pose, double size_m) {
-  std::vector<singularity_geometry::Joint<RealBall>> joints;
-  for (const int leg : legs) {
-    const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
-    const Vector3Ball turned_m = Times(pose.rotation, it.platform_joint_m);
-    const Vector3Ball c = pose.translation_m + turned_m + it.carried_offset_m.cast<RealBall>();
-    const auto reached = leg_geometry::Reach<RealBall>(it, SeenSegmentOf(it.chain), c);
-    if (!(LowerBound(reached.reach) > 0)) return std::nullopt;
-    joints.push_back({c, turned_m, kind == RobotKind::kReal ? reached.along_m : reached.free_direction});
-  }
-  return singularity_geometry::SignedCondition(robot.motion, kind, joints, RealBall(size_m));
+// A bound of |I - S^-1 U^T M V| for every M on the piece, with U S V^T the middle's singular value
+// decomposition: where it is below 1 every M has full rank. By the mean value theorem every element of
+// S^-1 U^T M V is within half the length times its rate of that at the middle. Infinite where nothing is
+// known.
+double OffFullRank(const HeldOnPiece& held) {
+  constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd middle = held.middle.unaryExpr([](const RealBall& x) { return MidpointOf(x); });
+  const Eigen::Index n = middle.cols();
+  if (!middle.allFinite() || middle.rows() < n) return kNothingKnown;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(middle, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (!(svd.singularValues()[n - 1] > 0)) return kNothingKnown;
+  const Eigen::MatrixXd inverse =
+      svd.singularValues().cwiseInverse().asDiagonal() * svd.matrixU().transpose();
+  const RealBallMatrix left = inverse.cast<RealBall>(), right = svd.matrixV().cast<RealBall>();
+  const RealBallMatrix at_middle = left * held.middle * right - RealBallMatrix::Identity(n, n);
+  const RealBallMatrix rates = left * held.rates * right;
+  const RealBallMatrix off = at_middle + rates * RealBall(0, held.half_length);
+  const Eigen::MatrixXd moduli = off.unaryExpr([](const RealBall& x) { return LargestModulus(x); });
+  return moduli.allFinite() ? WeightedNorm(moduli) : kNothingKnown;
 }
 
 // Whether the signed condition is proved to have one sign at the one end and the other at the other.
-bool SignsDiffer(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
-                 const StraightPath& path, double size_m) {
-  const auto a = EnclosedCondition(robot, kind, legs, path.Over(RealBall(0.0)), size_m);
-  const auto b = EnclosedCondition(robot, kind, legs, path.Over(RealBall(1.0)), size_m);
-  if (!a || !b) return false;
-  return (LowerBound(*a) > 0 && UpperBound(*b) < 0) || (UpperBound(*a) < 0 && LowerBound(*b) > 0);
+bool SignsDiffer(const Question& question, const StraightPath& path) {
+  const auto sign_at = [&](double s) {
+    const auto correction = CorrectionAtEnd(path, s);
+    if (!correction) return 0;
+    const auto condition = singularity_geometry::SignedCondition<RealBall>(
+        question.robot, question.kind, question.legs, path.PoseAt<RealBall>(s, *correction), question.size_m);
+    if (!condition) return 0;
+    return LowerBound(*condition) > 0 ? 1 : UpperBound(*condition) < 0 ? -1 : 0;
+  };
+  return sign_at(0) * sign_at(1) < 0;
 }
 
-// Whether a leg is proved not to reach some pose of the path beyond s.
-bool LeavesReach(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
-                 const StraightPath& path, double s) {
-  for (int i = 1; i <= kReachSamples; ++i) {
-    const PathPose pose = path.Over(RealBall(s + (1 - s) * i / kReachSamples));
-    for (const int leg : legs)
-      if (RowsOf(robot.legs[static_cast<size_t>(leg)], kind, pose).is_out_of_reach) return true;
-  }
+bool IsOutOfReach(const Question& question, const PoseBalls& pose) {
+  for (size_t k = 0; k < question.legs.size(); ++k)
+    if (UpperBound(leg_geometry::Placed<RealBall>(question.leg(k), pose).reached.reach) < 0) return true;
   return false;
 }
 
-std::optional<std::string> WhyNotJudged(const ParallelRobot& robot, RobotKind kind,
-                                        const std::vector<int>& legs) {
-  for (const int leg : legs) {
-    const LegChain& chain = robot.legs[static_cast<size_t>(leg)].chain;
-    const bool is_judged = kind == RobotKind::kReal ? HoldsAlongSegment(chain)
-                                                    : SeenSegmentOf(chain).direction == DirectionOf::kLeg;
-    if (!is_judged) return "paths of " + ToText(chain) + " legs are not judged";
+// Whether a leg is proved not to reach some pose of the path beyond s: of a path that RPS legs correct, which
+// is known up to there only, its goal.
+bool LeavesReach(const Question& question, const StraightPath& path, double s) {
+  const auto at_goal = CorrectionAtEnd(path, 1);
+  if (!at_goal) return false;
+  for (int i = path.corrections() > 0 ? kReachSamples : 1; i <= kReachSamples; ++i)
+    if (IsOutOfReach(question, path.PoseAt<RealBall>(s + (1 - s) * i / kReachSamples, *at_goal))) return true;
+  return false;
+}
+
+Rigid3 MiddleOf(const PoseBalls& pose) {
+  const auto middle = [](const RealBall& x) { return MidpointOf(x); };
+  const Eigen::Matrix3d rotation = pose.rotation.unaryExpr(middle);
+  return {Eigen::Quaterniond(rotation).normalized(), pose.translation_m.unaryExpr(middle)};
+}
+
+// How far a path is proved free, and what stopped the proof.
+struct Progress {
+  double at = 0;
+  int pieces = 0;
+  RealBallVector correction;  // there
+  bool is_lost = false;       // the next piece is no path that RPS legs are proved to allow
+};
+
+// By which the next piece, or the next trial, is longer than one that was `off` full rank.
+double NextLength(double off, bool is_proved) {
+  const double factor = kAim / off;
+  return is_proved ? std::clamp(factor, 0.5, 2.0) : std::clamp(factor, 0.1, 0.5);
+}
+
+Progress ProveAlong(const Question& question, const StraightPath& path, const RealBallVector& start) {
+  Progress progress{0, 0, start};
+  double length = kLargestPiece;
+  for (int trial = 0; trial < kMostTrials && progress.at < 1 && length >= kSmallestPiece; ++trial) {
+    const double end = std::min(progress.at + length, 1.0);
+    const auto piece = EnclosePiece(path, progress.at, progress.correction, end);
+    const auto held = piece ? HeldOn(question, path, *piece) : std::nullopt;
+    progress.is_lost = !piece;
+    const double off = held ? OffFullRank(*held) : std::numeric_limits<double>::infinity();
+    const bool is_proved = off < 1 - kMargin;
+    length = std::min(length * NextLength(off, is_proved), kLargestPiece);
+    if (!is_proved) continue;
+    ++progress.pieces;
+    progress.at = end;
+    progress.correction = piece->end_correction;
   }
-  if (robot.motion == PlatformMotion::kSpatial && MotionBasis(robot, robot.home).cols() < 6)
-    return std::string("a straight path leaves what RPS legs allow");
-  return std::nullopt;
+  return progress;
+}
+
+// Of a path that is not free all along.
+void SayWhyNotFree(const Question& question, const StraightPath& path, bool is_lost,
+                   PathCertificate& certificate) {
+  if (SignsDiffer(question, path)) {
+    certificate.verdict = PathVerdict::kSingular;
+    certificate.why = "start and goal lie on either side of a singularity: no path avoids it";
+  } else if (LeavesReach(question, path, certificate.at)) {
+    certificate.verdict = PathVerdict::kOutOfReach;
+    certificate.why = "a leg cannot reach the straight path beyond there";
+  } else if (is_lost) {
+    certificate.why = "the straight path is not proved to go on there within what RPS legs allow";
+  } else {
+    certificate.why = "the path passes a singularity there, or very near to one";
+  }
 }
 
 }  // namespace
@@ -203,36 +215,22 @@ PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, 
                                     const Rigid3& from, const Rigid3& to) {
   PathCertificate certificate;
   certificate.pose = from;
-  if (const auto why = WhyNotJudged(robot, kind, legs)) {
-    certificate.why = *why;
+  const StraightPath path(robot, from, to);
+  const auto start = CorrectionAtEnd(path, 0);
+  if (!start || !CorrectionAtEnd(path, 1)) {
+    certificate.why = "start or goal is not proved to be a pose that RPS legs allow";
     return certificate;
   }
-  const StraightPath path(from, to);
-  const double size_m = SizeOf_m(robot, from);
-  const auto scaled_basis = MotionBasisInSize(robot, from, size_m);
-  for (double piece = kLargestPiece; certificate.at < 1 && piece >= kSmallestPiece;) {
-    const double end = std::min(certificate.at + piece, 1.0);
-    const RealBall s((certificate.at + end) / 2, (end - certificate.at) / 2 * (1 + kMargin));
-    if (!IsFree(robot, kind, legs, scaled_basis, path.Over(s))) {
-      piece /= 2;
-      continue;
-    }
-    ++certificate.pieces;
-    certificate.at = end;
-    piece = std::min(2 * piece, kLargestPiece);
-  }
-  certificate.pose = path.At(certificate.at);
-  if (certificate.at >= 1) {
+  const Question question{robot, kind, legs, SizeOf_m(robot, from)};
+  const Progress progress = ProveAlong(question, path, *start);
+  certificate.at = progress.at;
+  certificate.pieces = progress.pieces;
+  certificate.pose = MiddleOf(path.PoseAt<RealBall>(progress.at, progress.correction));
+  const bool ends_elsewhere = progress.at >= 1 && !IsAtEnd(progress.correction);
+  if (progress.at >= 1 && !ends_elsewhere)
     certificate.verdict = PathVerdict::kFree;
-  } else if (SignsDiffer(robot, kind, legs, path, size_m)) {
-    certificate.verdict = PathVerdict::kSingular;
-    certificate.why = "start and goal lie on either side of a singularity: no path avoids it";
-  } else if (LeavesReach(robot, kind, legs, path, certificate.at)) {
-    certificate.verdict = PathVerdict::kOutOfReach;
-    certificate.why = "a leg cannot reach the straight path beyond there";
-  } else {
-    certificate.why = "the path passes a singularity there, or very near to one";
-  }
+  else
+    SayWhyNotFree(question, path, progress.is_lost || ends_elsewhere, certificate);
   return certificate;
 }
 

@@ -14,7 +14,8 @@ enum class PathVerdict {
   kFree,        // proved: no singularity on the path, so that its ends are in one aspect
   kSingular,    // proved: a signed condition changes its sign, no path joins the ends within an aspect
   kOutOfReach,  // proved: a leg does not reach some pose of the path
-  kUndecided,   // neither, down to the smallest piece: the path passes a singularity or very near to one
+  kUndecided,   // none of these, in as many trials and down to as small pieces as are made: the path passes a
+                // singularity or very near to one, or is not known to be one that RPS legs allow
 };
 const char* ToString(PathVerdict verdict);
 
@@ -26,11 +27,11 @@ struct PathCertificate {
   std::string why;  // in words, where not free
 };
 
-// The straight path: the platform's origin on a line, its rotation about one axis, both at constant speed. Of
-// `legs` (from 0) Type 1 and Type 2 singularities are excluded; of the real robot, whose legs have to be
-// those whose first joint or length is actuated, all legs count. A piece is proved where with Y the
-// pseudo-inverse of the held matrix M at its middle |I - Y M| < 1 for every M on the piece, so that M has
-// full rank on all of it.
+// The straight path, brought back to what RPS legs allow (core/robots/straight_path.h), of which start and
+// goal have to be poses, to 1e-8 m. Of `legs` (from 0) Type 1 and Type 2 singularities are excluded; of the
+// real robot, whichever joints are actuated, all legs count. Of RPS legs, all of the robot, what their R
+// forbid counts with what is held. A piece is proved where M, which is what is held by the platform's twist,
+// has full rank on all of it: |I - Y M V| < 1 for every such M, with Y M V about I at its middle.
 PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
                                     const Rigid3& from, const Rigid3& to);
 

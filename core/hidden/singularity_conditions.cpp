@@ -12,14 +12,13 @@
 namespace legible {
 namespace {
 
-using singularity_geometry::Joint;
-
 // Signed or, of two directions of a translation, a length.
-std::optional<double> ConditionOf(PlatformMotion motion, RobotKind kind,
-                                  const std::vector<Joint<double>>& joints, double size_m) {
-  if (motion == PlatformMotion::kTranslation && kind == RobotKind::kHidden && joints.size() == 2)
-    return joints[0].direction.cross(joints[1].direction).norm();
-  return singularity_geometry::SignedCondition(motion, kind, joints, size_m);
+std::optional<double> ConditionOf(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
+                                  const std::vector<LegState>& states, const Rigid3& pose) {
+  if (robot.motion == PlatformMotion::kTranslation && kind == RobotKind::kHidden && states.size() == 2)
+    return states[0].free_direction.cross(states[1].free_direction).norm();
+  return singularity_geometry::SignedCondition<double>(
+      robot, kind, legs, {pose.translation, pose.rotation.toRotationMatrix()}, SizeOf_m(robot, pose));
 }
 
 Eigen::MatrixXd HeldRows(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
@@ -46,6 +45,14 @@ double SmallestOfLargest(const ParallelRobot& robot, const Rigid3& pose, const E
   return values[0] > 0 ? values[basis.cols() - 1] / values[0] : 0;
 }
 
+// Of a leg's direction with what it has to cross.
+double SineOf(const RobotLeg& leg, const LegState& state) {
+  const SeenSegment segment = SeenSegmentOf(leg.chain);
+  if (segment.direction == DirectionOf::kLeg) return std::abs(state.direction.dot(state.free_direction));
+  if (segment.carrier == Carrier::kLine) return state.direction.cross(leg.first_axis).norm();
+  return std::abs(state.direction.dot(state.start_m - leg.base_joint_m)) / leg.arm_m;
+}
+
 }  // namespace
 
 double SizeOf_m(const ParallelRobot& robot, const Rigid3& base_from_platform) {
@@ -61,18 +68,7 @@ std::optional<Type2Measure> Type2MeasureOf(const ParallelRobot& robot, RobotKind
   Type2Measure measure;
   measure.matrix =
       SmallestOfLargest(robot, base_from_platform, HeldRows(robot, kind, legs, *states, base_from_platform));
-  std::vector<Joint<double>> joints;
-  for (size_t k = 0; k < legs.size(); ++k) {
-    const RobotLeg& leg = robot.legs[static_cast<size_t>(legs[k])];
-    const bool is_known = kind == RobotKind::kReal ? HoldsAlongSegment(leg.chain)
-                                                   : SeenSegmentOf(leg.chain).direction == DirectionOf::kLeg;
-    if (!is_known) return measure;
-    const LegState& state = (*states)[k];
-    joints.push_back({state.platform_joint_m, base_from_platform.rotation * leg.platform_joint_m,
-                      kind == RobotKind::kReal ? state.direction : state.free_direction});
-  }
-  const double size_m = SizeOf_m(robot, base_from_platform);
-  measure.geometric = ConditionOf(robot.motion, kind, joints, size_m);
+  measure.geometric = ConditionOf(robot, kind, legs, *states, base_from_platform);
   return measure;
 }
 
@@ -81,8 +77,8 @@ std::optional<double> Type1MeasureOf(const ParallelRobot& robot, const std::vect
   const auto states = StatesOf(robot, legs, base_from_platform);
   if (!states) return std::nullopt;
   double least = 1;
-  for (const LegState& state : *states)
-    least = std::min(least, std::abs(state.direction.dot(state.free_direction)));
+  for (size_t k = 0; k < legs.size(); ++k)
+    least = std::min(least, SineOf(robot.legs[static_cast<size_t>(legs[k])], (*states)[k]));
   return least;
 }
 

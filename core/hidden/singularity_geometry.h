@@ -2,20 +2,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "core/algebra/ball.h"
 #include "core/hidden/singularity_conditions.h"
+#include "core/robots/leg_geometry.h"
+#include "core/robots/platform_motion.h"
 
 namespace legible::singularity_geometry {
 
 template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
-// A platform joint, how it stands off the platform's origin, and the direction that belongs to it: t of the
-// hidden robot, u of the real one.
+template <typename T>
+using Line = Eigen::Matrix<T, 1, 6>;  // its force and moment about the platform's origin
+
+// A platform joint, how it stands off the platform's origin, and the direction t in which it moves with its
+// leg's direction held.
 template <typename T>
 struct Joint {
   Vector3<T> platform_joint_m, from_origin_m, direction;
@@ -24,18 +30,6 @@ struct Joint {
 template <typename T>
 T Determinant3(const Vector3<T>& a, const Vector3<T>& b, const Vector3<T>& c) {
   return a.dot(b.cross(c));
-}
-
-// Lines in the plane through the joints along d meet in a point, or are parallel.
-template <typename T>
-T LinesMeet(const std::vector<Joint<T>>& joints, const T& size_m, bool along_normal) {
-  std::vector<Vector3<T>> lines;
-  for (const Joint<T>& joint : joints) {
-    const T dx = along_normal ? -joint.direction[1] : joint.direction[0];
-    const T dy = along_normal ? joint.direction[0] : joint.direction[1];
-    lines.push_back({dx, dy, (joint.from_origin_m[0] * dy - joint.from_origin_m[1] * dx) / size_m});
-  }
-  return Determinant3(lines[0], lines[1], lines[2]);
 }
 
 // Four planes (n, -n p) share a point; lengths from the first joint, in the robot's size.
@@ -83,40 +77,92 @@ T DeterminantOf(Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix) {
   return determinant;
 }
 
-// Lines through the joints are dependent; a Schoenflies motion has four of their coordinates.
+// Lines are dependent in the coordinates that the motion has, of as many lines: in a plane they meet in a
+// point or are parallel. Lengths in the robot's size.
 template <typename T>
-T LinesDependent(const std::vector<Joint<T>>& joints, const T& size_m) {
-  const auto count = static_cast<Eigen::Index>(joints.size());
-  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> lines(count, count);
+std::optional<T> LinesDependent(PlatformMotion motion, const std::vector<Line<T>>& lines, const T& size_m) {
+  const std::vector<int> coordinates = FreeCoordinates(motion);
+  if (lines.size() != coordinates.size()) return std::nullopt;
+  const auto count = static_cast<Eigen::Index>(lines.size());
+  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix(count, count);
+  using std::sqrt;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Joint<T>& joint = joints[static_cast<size_t>(i)];
-    const Vector3<T> moment = joint.from_origin_m.cross(joint.direction) / size_m;
-    for (Eigen::Index k = 0; k < 3; ++k) lines(i, k) = joint.direction[k];
-    for (Eigen::Index k = 3; k < count; ++k) lines(i, k) = moment[count == 4 ? 2 : k - 3];
+    Line<T> line = lines[static_cast<size_t>(i)];
+    line.template tail<3>() /= size_m;
+    line /= sqrt(line.dot(line));
+    for (Eigen::Index k = 0; k < count; ++k) matrix(i, k) = line[coordinates[static_cast<size_t>(k)]];
   }
-  return DeterminantOf<T>(lines);
+  return DeterminantOf<T>(matrix);
 }
 
-// The condition that changes its sign in a Type 2 singularity, of as many legs as the platform needs; nothing
-// for another number of them, and for two directions of a translation, whose condition has no sign.
+// Along which a leg of a planar robot holds its platform joint with its direction held: across t, or where
+// its direction is the platform's a couple. Nothing where its direction is constant.
 template <typename T>
-std::optional<T> SignedCondition(PlatformMotion motion, RobotKind kind, const std::vector<Joint<T>>& joints,
-                                 const T& size_m) {
-  const size_t count = joints.size();
-  const bool is_hidden = kind == RobotKind::kHidden;
-  if (motion == PlatformMotion::kPlanarPoint && count == 2)
-    return joints[0].direction.cross(joints[1].direction)[2];
-  if (motion == PlatformMotion::kPlanar && count == 3) return LinesMeet(joints, size_m, is_hidden);
-  if (is_hidden) {
-    if (motion == PlatformMotion::kSchoenflies && count == 2) return Schoenflies(joints, size_m);
-    if (motion == PlatformMotion::kSpatial && count == 3) return PlanesMeet(joints, size_m);
-    return std::nullopt;
+std::optional<Line<T>> LineHeldByDirection(const RobotLeg& leg, const leg_geometry::PlacedLeg<T>& placed) {
+  const DirectionOf direction = SeenSegmentOf(leg.chain).direction;
+  if (direction == DirectionOf::kConstant) return std::nullopt;
+  if (direction == DirectionOf::kPlatform) return Line<T>(Line<T>::Unit(5));
+  const Vector3<T> across = leg_geometry::AcrossInPlane<T>(placed.reached.free_direction);
+  return leg_geometry::LineThrough<T>(placed.from_origin_m, across);
+}
+
+// Of the legs' own joints and of the R of RPS legs, or of a planar robot's legs with their directions held.
+template <typename T>
+std::optional<T> ConditionOfLines(const ParallelRobot& robot, RobotKind kind,
+                                  const std::vector<const RobotLeg*>& legs,
+                                  const std::vector<leg_geometry::PlacedLeg<T>>& placed,
+                                  const leg_geometry::PlatformPose<T>& pose, const T& size_m) {
+  std::vector<Line<T>> lines;
+  for (size_t k = 0; k < legs.size(); ++k) {
+    const auto line = kind == RobotKind::kReal ? leg_geometry::HeldByJoint<T>(*legs[k], placed[k]).line
+                                               : LineHeldByDirection<T>(*legs[k], placed[k]);
+    if (!line) return std::nullopt;
+    lines.push_back(*line);
   }
-  if (motion == PlatformMotion::kTranslation && count == 3)
-    return Determinant3(joints[0].direction, joints[1].direction, joints[2].direction);
-  const bool has_all = (motion == PlatformMotion::kSpatial && count == 6) ||
-                       (motion == PlatformMotion::kSchoenflies && count == 4);
-  return has_all ? std::optional<T>(LinesDependent(joints, size_m)) : std::nullopt;
+  for (const RobotLeg* leg : LegsKeptInPlanes(robot))
+    lines.push_back(leg_geometry::SidewaysLine<T>(*leg, pose.rotation * leg->platform_joint_m.cast<T>()));
+  return LinesDependent<T>(robot.motion, lines, size_m);
+}
+
+// Of legs of a hidden robot that is not planar. A direction of an RPS leg tells what its R forbids too: all
+// of these have to be seen.
+template <typename T>
+std::optional<T> ConditionOfTangents(const ParallelRobot& robot, const std::vector<const RobotLeg*>& legs,
+                                     const std::vector<leg_geometry::PlacedLeg<T>>& placed, const T& size_m) {
+  using std::sqrt;
+  std::vector<Joint<T>> joints;
+  for (const auto& leg : placed) {
+    const Vector3<T>& t = leg.reached.free_direction;
+    joints.push_back({leg.platform_joint_m, leg.from_origin_m, t / sqrt(t.dot(t))});
+  }
+  if (robot.motion == PlatformMotion::kSchoenflies && joints.size() == 2) return Schoenflies(joints, size_m);
+  const auto kept_in_planes = LegsKeptInPlanes(robot);
+  const bool sees_these = std::all_of(kept_in_planes.begin(), kept_in_planes.end(), [&](const RobotLeg* leg) {
+    return std::find(legs.begin(), legs.end(), leg) != legs.end();
+  });
+  if (robot.motion == PlatformMotion::kSpatial && joints.size() == 3 && sees_these)
+    return PlanesMeet(joints, size_m);
+  return std::nullopt;
+}
+
+// The condition that changes its sign in a Type 2 singularity, of as many legs (from 0) as the platform
+// needs; nothing for another number of them, where one does not reach the pose, or may not, and for two
+// directions of a translation, whose condition has no sign.
+template <typename T>
+std::optional<T> SignedCondition(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
+                                 const leg_geometry::PlatformPose<T>& pose, const T& size_m) {
+  std::vector<const RobotLeg*> of_robot;
+  std::vector<leg_geometry::PlacedLeg<T>> placed;
+  for (const int leg : legs) {
+    of_robot.push_back(&robot.legs[static_cast<size_t>(leg)]);
+    placed.push_back(leg_geometry::Placed<T>(*of_robot.back(), pose));
+    if (!(placed.back().reached.reach > T(0))) return std::nullopt;
+  }
+  const bool is_planar =
+      robot.motion == PlatformMotion::kPlanarPoint || robot.motion == PlatformMotion::kPlanar;
+  if (kind == RobotKind::kReal || is_planar)
+    return ConditionOfLines<T>(robot, kind, of_robot, placed, pose, size_m);
+  return ConditionOfTangents<T>(robot, of_robot, placed, size_m);
 }
 
 }  // namespace legible::singularity_geometry

@@ -134,12 +134,6 @@ bool IsPlanar(const LegChain& chain) {
                      [](const ChainJoint& joint) { return IsRevoluteOrPrismatic(joint.type); });
 }
 
-bool HoldsAlongSegment(const LegChain& chain) {
-  const SeenSegment segment = SeenSegmentOf(chain);
-  if (segment.direction != DirectionOf::kLeg) return false;
-  return chain[0].is_actuated == (segment.carrier != Carrier::kFixed);
-}
-
 bool ReadsAngle(const LegChain& chain) {
   return std::any_of(chain.begin(), chain.end(), [](const ChainJoint& joint) {
     return joint.is_actuated && joint.type == JointType::kRevolute;

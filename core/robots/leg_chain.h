@@ -63,9 +63,6 @@ SeenSegment SeenSegmentOf(const LegChain& chain);
 // Whether it has no joints but R and P: a leg of a planar robot.
 bool IsPlanar(const LegChain& chain);
 
-// Whether the actuated joint holds the platform's joint along the seen segment. Throws as SeenSegmentOf does.
-bool HoldsAlongSegment(const LegChain& chain);
-
 // Whether the actuated joint's reading is an angle (rad); else it is a length or position (m).
 bool ReadsAngle(const LegChain& chain);
 

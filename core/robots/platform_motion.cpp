@@ -1,7 +1,8 @@
 #include "core/robots/platform_motion.h"
 
 #include <Eigen/Dense>
-#include <vector>
+
+#include "core/robots/leg_geometry.h"
 
 namespace legible {
 namespace {
@@ -16,28 +17,22 @@ struct SidewaysConstraints {
   Eigen::VectorXd distance_m;
 };
 
-bool KeepsToPlane(const ParallelRobot& robot, const RobotLeg& leg) {
-  return robot.motion == PlatformMotion::kSpatial && leg.chain.front().type == JointType::kRevolute &&
-         SeenSegmentOf(leg.chain).carrier == Carrier::kFixed;
-}
-
 SidewaysConstraints SidewaysConstraintsOf(const ParallelRobot& robot, const Rigid3& base_from_platform) {
-  std::vector<const RobotLeg*> legs;
-  for (const RobotLeg& leg : robot.legs)
-    if (KeepsToPlane(robot, leg)) legs.push_back(&leg);
+  const auto legs = LegsKeptInPlanes(robot);
   SidewaysConstraints constraints{{legs.size(), 6}, Eigen::VectorXd(legs.size())};
   for (size_t k = 0; k < legs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    const Eigen::Vector3d& axis = legs[k]->first_axis;
-    const Eigen::Vector3d turned = base_from_platform.rotation * legs[k]->platform_joint_m;
-    constraints.rows.row(row) << axis.transpose(), turned.cross(axis).transpose();
+    const RobotLeg& leg = *legs[k];
+    constraints.rows.row(row) =
+        leg_geometry::SidewaysLine<double>(leg, base_from_platform.rotation * leg.platform_joint_m);
     constraints.distance_m[row] =
-        axis.dot(base_from_platform * legs[k]->platform_joint_m - legs[k]->base_joint_m);
+        leg.first_axis.dot(base_from_platform * leg.platform_joint_m - leg.base_joint_m);
   }
   return constraints;
 }
 
-// Of the six coordinates of a twist, those that the motion has.
+}  // namespace
+
 std::vector<int> FreeCoordinates(PlatformMotion motion) {
   switch (motion) {
     case PlatformMotion::kPlanarPoint:
@@ -54,7 +49,14 @@ std::vector<int> FreeCoordinates(PlatformMotion motion) {
   return {0, 1, 2, 3, 4, 5};
 }
 
-}  // namespace
+std::vector<const RobotLeg*> LegsKeptInPlanes(const ParallelRobot& robot) {
+  std::vector<const RobotLeg*> legs;
+  for (const RobotLeg& leg : robot.legs)
+    if (robot.motion == PlatformMotion::kSpatial && leg.chain.front().type == JointType::kRevolute &&
+        SeenSegmentOf(leg.chain).carrier == Carrier::kFixed)
+      legs.push_back(&leg);
+  return legs;
+}
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> MotionBasis(const ParallelRobot& robot,
                                                      const Rigid3& base_from_platform) {

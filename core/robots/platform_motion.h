@@ -2,10 +2,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/robots/parallel_robot.h"
 
 namespace legible {
+
+// Of the six coordinates (v, omega) of a twist in base, from 0, those that the motion has.
+std::vector<int> FreeCoordinates(PlatformMotion motion);
+
+// The robot's RPS legs, each of which keeps its platform joint in the plane through A across the axis of its
+// R.
+std::vector<const RobotLeg*> LegsKeptInPlanes(const ParallelRobot& robot);
 
 // Twists of the platform's origin that the motion allows at the pose, orthonormal columns (v, omega) in base,
 // 6 x dof. Of RPS legs each takes one away.
