@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/robots/leg_state.h"
+#include "core/robots/straight_path.h"
 
 namespace legible {
 namespace {
@@ -36,14 +37,6 @@ double PlatformRadius_m(const ParallelRobot& robot) {
   double radius_m = 0;
   for (const RobotLeg& leg : robot.legs) radius_m = std::max(radius_m, leg.platform_joint_m.norm());
   return radius_m;
-}
-
-std::vector<Rigid3> StraightPath(const Rigid3& from, const Rigid3& to, int samples) {
-  const Vector6d way = Displacement(from, to);
-  std::vector<Rigid3> poses;
-  poses.reserve(static_cast<size_t>(samples));
-  for (int i = 0; i < samples; ++i) poses.push_back(Displaced(from, way * i / (samples - 1)));
-  return poses;
 }
 
 std::optional<LargestPoseError> Larger(const std::optional<LargestPoseError>& a,
@@ -82,7 +75,7 @@ class Judge {
         from_(from),
         to_(to),
         options_(options),
-        way_(StraightPath(from, to, options.path_samples)) {}
+        way_(StraightPath(robot, from, to).Poses(options.path_samples)) {}
 
   JudgedLegSet Judged(const std::vector<int>& legs) const {
     JudgedLegSet set;
@@ -90,7 +83,7 @@ class Judge {
     if (IsRuledOut(set)) return set;
     set.modes = AssemblyModesOf(robot_, legs, to_);
     set.path = CertifyStraightPath(robot_, RobotKind::kHidden, legs, from_, to_);
-    PredictErrors(set, way_);
+    PredictErrors(set, *way_);
     if (set.path.verdict == PathVerdict::kFree) {
       set.verdict = LegSetVerdict::kPossible;
     } else if (set.path.verdict == PathVerdict::kSingular || set.path.verdict == PathVerdict::kOutOfReach) {
@@ -103,6 +96,7 @@ class Judge {
     return set;
   }
 
+  // And rules the set out where the simulated servo ends elsewhere, or a leg does not show all along its way.
   void Simulate(JudgedLegSet& set) const {
     if (!set.simulated) {
       std::mt19937 no_noise(0);
@@ -110,7 +104,10 @@ class Judge {
       servo.cone_half_angle_rad = 0;
       set.simulated = SimulateDirectionServo(robot_, set.legs, from_, to_, servo, no_noise);
     }
-    if (IsAtGoal(*set.simulated, to_)) return;
+    if (IsAtGoal(*set.simulated, to_)) {
+      IsRuledOutAlong(Waypoints(*set.simulated, to_), set);
+      return;
+    }
     set.verdict = LegSetVerdict::kMisled;
     set.why = std::string("simulated, the servo ends elsewhere: ") + ToString(set.simulated->end);
   }
@@ -125,14 +122,20 @@ class Judge {
     set.controllability = ControllabilityOf(robot_, set.legs, to_, SeenFeature::kDirections);
     if (set.controllability.status != ControllabilityStatus::kControllable)
       return rule_out(VerdictOf(set.controllability.status), set.controllability.why);
-    for (const Rigid3& pose : way_)
+    if (!way_) return rule_out(LegSetVerdict::kOutOfReach, "RPS legs allow no straight way");
+    return IsRuledOutAlong(*way_, set);
+  }
+
+  // By a leg that does not reach the way or does not show all along it.
+  bool IsRuledOutAlong(const std::vector<Rigid3>& way, JudgedLegSet& set) const {
+    for (const Rigid3& pose : way)
       for (const int leg : set.legs) {
-        if (!StateOf(robot_.legs[static_cast<size_t>(leg)], pose))
-          return rule_out(LegSetVerdict::kOutOfReach,
-                          "leg " + std::to_string(leg + 1) + " does not reach the way");
-        if (options_.is_visible && !options_.is_visible(leg, pose))
-          return rule_out(LegSetVerdict::kInvisible,
-                          "leg " + std::to_string(leg + 1) + " does not show all the way");
+        const bool reaches = StateOf(robot_.legs[static_cast<size_t>(leg)], pose).has_value();
+        if (reaches && (!options_.is_visible || options_.is_visible(leg, pose))) continue;
+        set.verdict = reaches ? LegSetVerdict::kInvisible : LegSetVerdict::kOutOfReach;
+        set.why = "leg " + std::to_string(leg + 1) +
+                  (reaches ? " does not show all the way" : " does not reach the way");
+        return true;
       }
     return false;
   }
@@ -155,16 +158,16 @@ class Judge {
 
   // The straight path may pass a singularity that the servo's own way does not.
   void JudgeBySimulation(JudgedLegSet& set) const {
+    set.verdict = LegSetVerdict::kArrives;
     Simulate(set);
     if (set.verdict == LegSetVerdict::kMisled) {
       set.verdict = LegSetVerdict::kUndecided;
       set.why = set.path.why + "; simulated, the servo ends elsewhere";
-      return;
     }
+    if (set.verdict != LegSetVerdict::kArrives) return;
     const std::vector<Rigid3> waypoints = Waypoints(*set.simulated, to_);
     const PathCertificate own_way = CertifyPath(robot_, RobotKind::kHidden, set.legs, waypoints);
     if (own_way.verdict != PathVerdict::kFree) {
-      set.verdict = LegSetVerdict::kArrives;
       set.why = set.path.why + "; simulated, the servo arrives, which is no proof";
       return;
     }
@@ -178,7 +181,7 @@ class Judge {
   const Rigid3& from_;
   const Rigid3& to_;
   const LegSelectionOptions& options_;
-  std::vector<Rigid3> way_;
+  std::optional<std::vector<Rigid3>> way_;  // straight; nothing where RPS legs allow none
 };
 
 void Rank(const ParallelRobot& robot, std::vector<JudgedLegSet>& sets) {

@@ -46,7 +46,7 @@ struct JudgedLegSet {
   LegSetVerdict verdict = LegSetVerdict::kUndecided;
   std::string why;                  // in words, where not possible
   Controllability controllability;  // at the goal
-  PathCertificate path;             // of the hidden robot, straight or as it was simulated
+  PathCertificate path;             // of the hidden robot, straight (straight_path.h) or as it was simulated
   bool is_path_simulated = false;   // the latter
   AssemblyModes modes;              // of the hidden robot at the goal
   // On the way that `path` certifies, at path_samples poses of a straight one, up to 200 of a simulated one;

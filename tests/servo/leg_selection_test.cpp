@@ -211,6 +211,54 @@ TEST(SelectLegs, PassesOverLegsThatDoNotShow) {
   EXPECT_TRUE(found.has_choice);
 }
 
+// A servo leaves the straight line between its ends, and its legs have to show where it goes.
+TEST(SelectLegs, TheChosenLegsShowAlongTheServosOwnWay) {
+  std::mt19937_64 generator = TestGenerator();
+  int chosen = 0, hidden = 0;
+  for (int n = 0; n < 6; ++n) {
+    const Way way = RandomHexapodWay(generator, 0.03);
+    const Eigen::Vector3d along = (way.to.translation - way.from.translation).normalized();
+    const auto off_line_m = [&](const Rigid3& pose) {
+      return (pose.translation - way.from.translation).cross(along).norm();
+    };
+    LegSelectionOptions options;
+    options.leg_sets = {{0, 2, 4}, {1, 3, 5}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
+    options.is_visible = [&](int leg, const Rigid3& pose) { return leg != 1 || off_line_m(pose) < 1e-4; };
+    const LegSelection found = SelectLegs(way.robot, way.from, way.to, options);
+    for (const JudgedLegSet& set : found.sets)
+      if (set.verdict == LegSetVerdict::kInvisible) ++hidden;
+    if (!found.has_choice) continue;
+    ++chosen;
+    const JudgedLegSet& best = found.sets.front();
+    if (std::find(best.legs.begin(), best.legs.end(), 1) == best.legs.end()) continue;
+    for (const DirectionServoSample& sample : best.simulated->samples)
+      EXPECT_LT(off_line_m(sample.base_from_platform), 1.1e-4);
+  }
+  EXPECT_GT(chosen, 0);
+  EXPECT_GT(hidden, 0);
+}
+
+// All three legs of a 3-RPS are needed, and proved to lead there on the straight way brought back to their
+// planes.
+TEST(SelectLegs, ProvesTheWayOfRpsLegs) {
+  std::mt19937_64 generator = TestGenerator();
+  int possible = 0;
+  for (int n = 0; n < 10; ++n) {
+    const RobotAtPose random = RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS"});
+    const Rigid3 to = RandomPoseNear(generator, random.robot, random.pose, 0.02);
+    const LegSelection found = SelectLegs(random.robot, random.pose, to, {});
+    ASSERT_EQ(found.sets.size(), 7);
+    for (const JudgedLegSet& set : found.sets) {
+      EXPECT_EQ(set.verdict == LegSetVerdict::kUncontrollable, set.legs.size() < 3);
+      if (set.verdict != LegSetVerdict::kPossible) continue;
+      ++possible;
+      EXPECT_EQ(set.path.verdict, PathVerdict::kFree);
+    }
+  }
+  std::cout << possible << " of 10 are possible\n";
+  EXPECT_GE(possible, 8);
+}
+
 TEST(SelectLegs, HasNoChoiceWhereTheGoalIsOutOfReach) {
   std::mt19937_64 generator = TestGenerator();
   const RobotAtPose random = RandomTranslationRobot(generator, {"_R-{2-US}", "_R-{2-US}", "_R-{2-US}"});
