@@ -100,7 +100,7 @@ TEST(StraightPath, DistancesMoveWithTheCorrectionAsByDifferences) {
     const auto exact = [&](const auto& at) {
       using T = typename std::decay_t<decltype(at)>::Scalar;
       const StraightPath::Vector<T> any = at;
-      const Eigen::Matrix<T, 3, 1> distances = path.Distances_m(path.PoseAt<T>(T(s), any));
+      Eigen::Matrix<T, 3, 1> distances = path.Distances_m(path.PoseAt<T>(T(s), any));
       return distances;
     };
     EXPECT_TRUE(AreNear(found, JetJacobian(exact, c), 1e-12));
