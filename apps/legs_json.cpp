@@ -1,7 +1,6 @@
 #include "apps/legs_json.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -142,11 +141,11 @@ std::vector<std::string> Warnings(const LegsRun& run) {
   if (!run.selection.has_choice) return warnings;
   const JudgedLegSet& best = run.selection.sets.front();
   if (best.verdict == LegSetVerdict::kArrives)
-    warnings.push_back(fmt::format("legs {} are not proved to lead to the goal: {}",
-                                   fmt::join(FromOne(best.legs), ","), best.why));
+    warnings.push_back(
+        fmt::format("legs {} are not proved to lead to the goal: {}", LegNumbers(best.legs), best.why));
   if (best.modes.status != AssemblyModesStatus::kComplete)
-    warnings.push_back(fmt::format("the assembly modes of legs {} may not be all: {}",
-                                   fmt::join(FromOne(best.legs), ","), best.modes.why));
+    warnings.push_back(fmt::format("the assembly modes of legs {} may not be all: {}", LegNumbers(best.legs),
+                                   best.modes.why));
   return warnings;
 }
 
