@@ -46,7 +46,7 @@ int RunLegs(const LegsSettings& settings, const Console& console) {
     console.out << text;
   console.err << WarningsText(document.at("warnings"));
   if (run.selection.has_choice) return kExitSuccess;
-  console.err << "legible: no set of legs leads to the goal\n";
+  console.err << "legible: " << document.at("why_no_choice").get<std::string>() << "\n";
   return kExitNoResult;
 }
 

@@ -149,6 +149,13 @@ std::vector<std::string> Warnings(const LegsRun& run) {
   return warnings;
 }
 
+ordered_json WhyNoChoice(const LegSelection& selection) {
+  if (selection.has_choice) return {};
+  return selection.robot_path.verdict == PathVerdict::kSingular
+             ? "the robot itself cannot go to the goal without a singularity, whichever legs are watched"
+             : "no set of legs leads to the goal";
+}
+
 }  // namespace
 
 ordered_json LegsJson(const LegsRun& run) {
@@ -166,6 +173,7 @@ ordered_json LegsJson(const LegsRun& run) {
           {"sets", sets},
           {"choice", run.selection.has_choice ? ordered_json(FromOne(run.selection.sets.front().legs))
                                               : ordered_json()},
+          {"why_no_choice", WhyNoChoice(run.selection)},
           {"maps", run.map ? SliceMapJson(*run.map) : ordered_json()},
           {"warnings", Warnings(run)}};
 }

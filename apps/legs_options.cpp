@@ -24,7 +24,8 @@ directions of the seen legs. It has assembly modes and singularities of its own.
                   servo's own where the straight one passes a singularity
   largest error   of the platform at the goal and on the way, when each seen direction is off by up to --noise
 
-The best set is simulated to the goal, and the next one taken if it does not get there.
+Every set that a singularity does not keep from the goal is simulated: an aspect can hold several of its modes. Of those
+that arrive, within the joint ranges and in sight all the way, that with the smallest error is the one to watch.
 
 MODEL is a model.yaml, whose camera says which legs show, or a robot.yaml of any family.
 

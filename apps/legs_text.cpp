@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/text_table.h"
+#include "apps/wording.h"
 #include "core/geometry/orientation.h"
 
 namespace legible {
@@ -105,7 +106,8 @@ std::string RobotModesText(const ordered_json& document) {
 }
 
 std::string ChoiceText(const ordered_json& document) {
-  if (document.at("choice").is_null()) return "\nNo set of legs leads to the goal.\n";
+  if (document.at("choice").is_null())
+    return "\n" + Capitalised(document.at("why_no_choice").get<std::string>()) + ".\n";
   const ordered_json& best = document.at("sets").front();
   const ordered_json& simulation = best.at("simulation");
   return fmt::format(

@@ -6,9 +6,10 @@
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "core/robots/leg_state.h"
-#include "core/robots/straight_path.h"
+#include "core/robots/parallel_kinematics.h"
 
 namespace legible {
 namespace {
@@ -71,73 +72,30 @@ std::vector<Rigid3> Waypoints(const DirectionServoRun& run, const Rigid3& goal) 
 class Judge {
  public:
   Judge(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to, const LegSelectionOptions& options)
-      : robot_(robot),
-        from_(from),
-        to_(to),
-        options_(options),
-        way_(StraightPath(robot, from, to).Poses(options.path_samples)) {}
+      : robot_(robot), from_(from), to_(to), options_(options) {}
 
   JudgedLegSet Judged(const std::vector<int>& legs) const {
     JudgedLegSet set;
     set.legs = legs;
-    if (IsRuledOut(set)) return set;
-    set.modes = AssemblyModesOf(robot_, legs, to_);
-    set.path = CertifyStraightPath(robot_, RobotKind::kHidden, legs, from_, to_);
-    PredictErrors(set, *way_);
-    if (set.path.verdict == PathVerdict::kFree) {
-      set.verdict = LegSetVerdict::kPossible;
-    } else if (set.path.verdict == PathVerdict::kSingular || set.path.verdict == PathVerdict::kOutOfReach) {
-      set.verdict = set.path.verdict == PathVerdict::kSingular ? LegSetVerdict::kOtherAspect
-                                                               : LegSetVerdict::kOutOfReach;
-      set.why = set.path.why;
-    } else {
-      JudgeBySimulation(set);
+    set.controllability = ControllabilityOf(robot_, legs, to_, SeenFeature::kDirections);
+    if (set.controllability.status != ControllabilityStatus::kControllable) {
+      RuleOut(set, VerdictOf(set.controllability.status), set.controllability.why);
+    } else if (!IsRuledOutAlong({from_, to_}, "start or goal", set)) {
+      set.modes = AssemblyModesOf(robot_, legs, to_);
+      set.path = CertifyStraightPath(robot_, RobotKind::kHidden, legs, from_, to_);
+      set.error_at_goal = ErrorAt(set, to_);
+      if (set.path.verdict == PathVerdict::kSingular)
+        RuleOut(set, LegSetVerdict::kOtherAspect, set.path.why);
+      else
+        JudgeBySimulation(set);
     }
     return set;
   }
 
-  // And rules the set out where the simulated servo ends elsewhere, or a leg does not show all along its way.
-  void Simulate(JudgedLegSet& set) const {
-    if (!set.simulated) {
-      std::mt19937 no_noise(0);
-      DirectionServoOptions servo = options_.servo;
-      servo.cone_half_angle_rad = 0;
-      set.simulated = SimulateDirectionServo(robot_, set.legs, from_, to_, servo, no_noise);
-    }
-    if (IsAtGoal(*set.simulated, to_)) {
-      IsRuledOutAlong(Waypoints(*set.simulated, to_), set);
-      return;
-    }
-    set.verdict = LegSetVerdict::kMisled;
-    set.why = std::string("simulated, the servo ends elsewhere: ") + ToString(set.simulated->end);
-  }
-
  private:
-  bool IsRuledOut(JudgedLegSet& set) const {
-    const auto rule_out = [&](LegSetVerdict verdict, std::string why) {
-      set.verdict = verdict;
-      set.why = std::move(why);
-      return true;
-    };
-    set.controllability = ControllabilityOf(robot_, set.legs, to_, SeenFeature::kDirections);
-    if (set.controllability.status != ControllabilityStatus::kControllable)
-      return rule_out(VerdictOf(set.controllability.status), set.controllability.why);
-    if (!way_) return rule_out(LegSetVerdict::kOutOfReach, "RPS legs allow no straight way");
-    return IsRuledOutAlong(*way_, set);
-  }
-
-  // By a leg that does not reach the way or does not show all along it.
-  bool IsRuledOutAlong(const std::vector<Rigid3>& way, JudgedLegSet& set) const {
-    for (const Rigid3& pose : way)
-      for (const int leg : set.legs) {
-        const bool reaches = StateOf(robot_.legs[static_cast<size_t>(leg)], pose).has_value();
-        if (reaches && (!options_.is_visible || options_.is_visible(leg, pose))) continue;
-        set.verdict = reaches ? LegSetVerdict::kInvisible : LegSetVerdict::kOutOfReach;
-        set.why = "leg " + std::to_string(leg + 1) +
-                  (reaches ? " does not show all the way" : " does not reach the way");
-        return true;
-      }
-    return false;
+  static void RuleOut(JudgedLegSet& set, LegSetVerdict verdict, std::string why) {
+    set.verdict = verdict;
+    set.why = std::move(why);
   }
 
   static LegSetVerdict VerdictOf(ControllabilityStatus status) {
@@ -146,42 +104,67 @@ class Judge {
                                                           : LegSetVerdict::kUncontrollable;
   }
 
-  // At the goal and along a way.
-  void PredictErrors(JudgedLegSet& set, const std::vector<Rigid3>& way) const {
-    const auto at = [&](const Rigid3& pose) {
-      return LargestErrorByConeNoise(robot_, set.legs, pose, options_.cone_half_angle_rad);
-    };
-    set.error_at_goal = at(to_);
-    set.error_on_path = set.error_at_goal;
-    for (const Rigid3& pose : way) set.error_on_path = Larger(set.error_on_path, at(pose));
+  // By a leg of the robot that does not reach a pose or would leave its joint range there, or one of the set
+  // that does not show.
+  bool IsRuledOutAlong(const std::vector<Rigid3>& poses, const char* where, JudgedLegSet& set) const {
+    for (const Rigid3& pose : poses)
+      for (size_t i = 0; i < robot_.legs.size(); ++i) {
+        const RobotLeg& leg = robot_.legs[i];
+        const auto state = StateOf(leg, pose);
+        const bool is_seen =
+            std::find(set.legs.begin(), set.legs.end(), static_cast<int>(i)) != set.legs.end();
+        const auto rule_out = [&](LegSetVerdict verdict, const char* what) {
+          RuleOut(set, verdict, "leg " + std::to_string(i + 1) + what + where);
+          return true;
+        };
+        if (!state) return rule_out(LegSetVerdict::kOutOfReach, " does not reach ");
+        if (!IsWithinJointRange(leg, state->reading))
+          return rule_out(LegSetVerdict::kOutOfReach, " leaves its joint range on ");
+        if (is_seen && options_.is_visible && !options_.is_visible(static_cast<int>(i), pose))
+          return rule_out(LegSetVerdict::kInvisible, " does not show on ");
+      }
+    return false;
   }
 
-  // The straight path may pass a singularity that the servo's own way does not.
+  std::optional<LargestPoseError> ErrorAt(const JudgedLegSet& set, const Rigid3& pose) const {
+    return LargestErrorByConeNoise(robot_, set.legs, pose, options_.cone_half_angle_rad);
+  }
+
+  // An aspect may hold several assembly modes, and the straight path may pass a singularity that the servo's
+  // own way does not: only the servo tells where it ends.
   void JudgeBySimulation(JudgedLegSet& set) const {
-    set.verdict = LegSetVerdict::kArrives;
-    Simulate(set);
-    if (set.verdict == LegSetVerdict::kMisled) {
-      set.verdict = LegSetVerdict::kUndecided;
-      set.why = set.path.why + "; simulated, the servo ends elsewhere";
+    std::mt19937 no_noise(0);
+    DirectionServoOptions servo = options_.servo;
+    servo.cone_half_angle_rad = 0;
+    set.simulated = SimulateDirectionServo(robot_, set.legs, from_, to_, servo, no_noise);
+    const bool is_free = set.path.verdict == PathVerdict::kFree;
+    if (!IsAtGoal(*set.simulated, to_)) {
+      const std::string elsewhere =
+          std::string("simulated, the servo ends elsewhere: ") + ToString(set.simulated->end);
+      return is_free ? RuleOut(set, LegSetVerdict::kMisled, elsewhere)
+                     : RuleOut(set, LegSetVerdict::kUndecided, set.path.why + "; " + elsewhere);
     }
-    if (set.verdict != LegSetVerdict::kArrives) return;
-    const std::vector<Rigid3> waypoints = Waypoints(*set.simulated, to_);
-    const PathCertificate own_way = CertifyPath(robot_, RobotKind::kHidden, set.legs, waypoints);
-    if (own_way.verdict != PathVerdict::kFree) {
-      set.why = set.path.why + "; simulated, the servo arrives, which is no proof";
-      return;
-    }
+    const std::vector<Rigid3> way = Waypoints(*set.simulated, to_);
+    if (IsRuledOutAlong(way, "the simulated way", set)) return;
+    set.error_on_path = set.error_at_goal;
+    for (const Rigid3& pose : way) set.error_on_path = Larger(set.error_on_path, ErrorAt(set, pose));
+    set.verdict = LegSetVerdict::kPossible;
+    if (!is_free) CertifyOwnWay(way, set);
+  }
+
+  void CertifyOwnWay(const std::vector<Rigid3>& way, JudgedLegSet& set) const {
+    const PathCertificate own_way = CertifyPath(robot_, RobotKind::kHidden, set.legs, way);
+    if (own_way.verdict != PathVerdict::kFree)
+      return RuleOut(set, LegSetVerdict::kArrives,
+                     set.path.why + "; simulated, the servo arrives, which is no proof");
     set.path = own_way;
     set.is_path_simulated = true;
-    PredictErrors(set, waypoints);
-    set.verdict = LegSetVerdict::kPossible;
   }
 
   const ParallelRobot& robot_;
   const Rigid3& from_;
   const Rigid3& to_;
   const LegSelectionOptions& options_;
-  std::optional<std::vector<Rigid3>> way_;  // straight; nothing where RPS legs allow none
 };
 
 void Rank(const ParallelRobot& robot, std::vector<JudgedLegSet>& sets) {
@@ -198,7 +181,6 @@ void Rank(const ParallelRobot& robot, std::vector<JudgedLegSet>& sets) {
 }
 
 void CheckOptions(const ParallelRobot& robot, const LegSelectionOptions& options) {
-  if (options.path_samples < 2) throw std::invalid_argument("a way needs two samples or more");
   if (options.leg_sets.empty() && static_cast<int>(robot.legs.size()) > kMostLegsToChooseFrom)
     throw std::invalid_argument("of more than " + std::to_string(kMostLegsToChooseFrom) +
                                 " legs there are too many sets: name some");
@@ -249,13 +231,8 @@ LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Ri
     if (progress) progress(static_cast<int>(i) + 1, static_cast<int>(all.size()));
   }
   Rank(robot, selection.sets);
-  while (LeadsToGoal(selection.sets.front())) {
-    judge.Simulate(selection.sets.front());
-    selection.has_choice =
-        LeadsToGoal(selection.sets.front()) && selection.robot_path.verdict != PathVerdict::kSingular;
-    if (LeadsToGoal(selection.sets.front())) break;
-    Rank(robot, selection.sets);
-  }
+  selection.has_choice =
+      LeadsToGoal(selection.sets.front()) && selection.robot_path.verdict != PathVerdict::kSingular;
   return selection;
 }
 

@@ -22,22 +22,21 @@ inline constexpr int kMostLegsToChooseFrom = 8;
 struct LegSelectionOptions {
   std::vector<std::vector<int>> leg_sets;  // to judge, legs from 0; empty: every set
   double cone_half_angle_rad = 1e-3;       // by which each seen direction is off at most
-  int path_samples = 33;                   // at which errors and visibility are looked at, ends included
   DirectionServoOptions servo;
   // Whether a leg (from 0) shows at a pose; empty: all do everywhere.
   std::function<bool(int leg, const Rigid3& base_from_platform)> is_visible;
 };
 
 enum class LegSetVerdict {
-  kPossible,        // start and goal are proved to be in one aspect
-  kArrives,         // that could not be proved, but the servo, simulated, ends at the goal
-  kUndecided,       // that could not be proved, and the servo, simulated, ends elsewhere
-  kInvisible,       // a leg does not show all the way
-  kUncontrollable,  // the directions do not hold the platform anywhere
-  kSingularGoal,    // not at the goal, though elsewhere
-  kOtherAspect,     // proved: no path without a singularity
-  kOutOfReach,      // a leg does not reach start, goal or the way between
-  kMisled,          // in one aspect, but simulated it ends elsewhere
+  kPossible,      // start and goal are proved to be in one aspect, and the servo, simulated, ends at the goal
+  kArrives,       // the former could not be proved
+  kMisled,        // in one aspect, but simulated it ends elsewhere: an aspect can have several modes
+  kUndecided,     // that could not be proved, and the servo, simulated, ends elsewhere
+  kOtherAspect,   // proved: no path without a singularity
+  kInvisible,     // a leg does not show at start or goal or on the simulated way
+  kOutOfReach,    // a leg of the robot does not reach these, or leaves its joint range
+  kSingularGoal,  // the directions do not hold the platform at the goal, though elsewhere
+  kUncontrollable,  // nor anywhere else
 };
 const char* ToString(LegSetVerdict verdict);
 
@@ -49,25 +48,25 @@ struct JudgedLegSet {
   PathCertificate path;             // of the hidden robot, straight (straight_path.h) or as it was simulated
   bool is_path_simulated = false;   // the latter
   AssemblyModes modes;              // of the hidden robot at the goal
-  // On the way that `path` certifies, at path_samples poses of a straight one, up to 200 of a simulated one;
-  // where it certifies none on the straight one.
+  // Nothing where the set is ruled out at start or goal; on the way at up to 200 poses of the simulated one,
+  // where that ends at the goal.
   std::optional<LargestPoseError> error_at_goal, error_on_path;
-  std::optional<DirectionServoRun> simulated;  // where the verdict needed it, and of the best
+  std::optional<DirectionServoRun> simulated;  // where neither start nor goal nor the path rules the set out
 };
 
-// Whether the servo of the set is known to end at the goal: it is possible, or arrives.
+// Whether the servo of the set, simulated, ends at the goal: it is possible, or arrives.
 bool LeadsToGoal(const JudgedLegSet& set);
 
 struct LegSelection {
   PathCertificate robot_path;      // the real robot's, straight
   std::vector<JudgedLegSet> sets;  // by verdict, best first
-  bool has_choice = false;         // the servo of the first one ends at the goal, simulated
+  bool has_choice = false;         // the first one leads to the goal, and so does the robot itself
 };
 
 // Ranked by a bound of a platform joint's displacement by cone noise (largest position plus largest rotation
 // by the platform's radius) at the goal, then on the way. There is no choice where the robot itself is proved
-// to have a singularity between start and goal. Throws std::invalid_argument for fewer than two path samples
-// or more than kMostLegsToChooseFrom legs. `is_done(judged, of)` is told of progress.
+// to have a singularity between start and goal. Throws std::invalid_argument where sets are not named of more
+// than kMostLegsToChooseFrom legs. `progress` is told how many sets of how many are judged.
 LegSelection SelectLegs(const ParallelRobot& robot, const Rigid3& from, const Rigid3& to,
                         const LegSelectionOptions& options,
                         const std::function<void(int judged, int of)>& progress = {});

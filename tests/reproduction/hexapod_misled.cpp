@@ -140,6 +140,28 @@ std::string MisledTable(const GoughStewart& robot, const MisledWay& way) {
          fmt::format("\nOf the {} sets of legs {} are possible here.\n", selection.sets.size(), possible);
 }
 
+std::string OneAspectTable(const GoughStewart& robot, const MisledWay& way) {
+  const ParallelRobot general = ParallelRobotOf(robot);
+  std::string text =
+      "| legs | ends at | from the goal | largest error (rad) | straight path to the goal | to where it ends "
+      "|\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
+  for (const JudgedLegSet& set : SelectLegs(general, way.from, way.to, {}).sets) {
+    if (set.verdict != LegSetVerdict::kMisled) continue;
+    const DirectionServoSample& last = set.simulated->samples.back();
+    const PathCertificate there =
+        CertifyStraightPath(general, RobotKind::kHidden, set.legs, way.from, last.base_from_platform);
+    const auto path_text = [](const PathCertificate& path) {
+      return fmt::format("{}, {} pieces", ToString(path.verdict), path.pieces);
+    };
+    text += fmt::format("| {} | {} | {} | {:.2g} | {} | {} |\n", LegNumbers(set.legs, ", "),
+                        PoseText(last.base_from_platform), OffText(way.to, last.base_from_platform),
+                        *std::max_element(last.errors_rad.begin(), last.errors_rad.end()),
+                        path_text(set.path), path_text(there));
+  }
+  return text;
+}
+
 std::string MisledByImagesTable(const std::filesystem::path& folder, const MisledWay& way) {
   std::string text =
       "| mode | legs | warned of (m) | ended | error seen | true end | from the goal | from the other mode "

@@ -27,6 +27,10 @@ std::optional<MisledWay> FindMisledWay(const GoughStewart& robot, int tries);
 // Markdown: the way, where the directions of three legs lead, and what the choice of legs makes of it.
 std::string MisledTable(const GoughStewart& robot, const MisledWay& way);
 
+// Markdown: the sets of legs whose start and goal are proved to be in one aspect, and whose servo ends in
+// another mode all the same, which is proved to be in that aspect, too.
+std::string OneAspectTable(const GoughStewart& robot, const MisledWay& way);
+
 // Markdown: the same way by `legible servo` with images, by directions and by edges, with these legs and with
 // the choice. Logs in the folder.
 std::string MisledByImagesTable(const std::filesystem::path& folder, const MisledWay& way);

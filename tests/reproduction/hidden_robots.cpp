@@ -34,8 +34,10 @@ void PrintQuattro() {
 void PrintHexapod(const std::filesystem::path& folder) {
   const GoughStewart robot = ShippedHexapod().robot;
   fmt::print("\n## Hexapod misled by three legs\n\n");
-  if (const auto way = FindMisledWay(robot, kTries))
-    fmt::print("{}\n{}", MisledTable(robot, *way), MisledByImagesTable(folder / "misled", *way));
+  const auto way = FindMisledWay(robot, kTries);
+  if (way)
+    fmt::print("{}\n{}\n### Two modes in one aspect\n\n{}", MisledTable(robot, *way),
+               MisledByImagesTable(folder / "misled", *way), OneAspectTable(robot, *way));
   else
     fmt::print("None found in {} goals.\n", kTries);
   std::fflush(stdout);

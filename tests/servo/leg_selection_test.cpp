@@ -47,9 +47,10 @@ Eigen::MatrixXd RatesAt(const ParallelRobot& robot, const std::vector<int>& legs
 // Where a servo of the hexapod's directions ends, by Euler's method.
 Rigid3 EndOfServo(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& from,
                   const Rigid3& to) {
-  constexpr double kStep = 0.01;  // gain times time
+  constexpr double kStep = 0.008;  // gain times time, as the servo simulated has it: where a way comes near
+                                   // to a singularity its end can depend on it
   Rigid3 pose = from;
-  for (int n = 0; n < 2500; ++n) {
+  for (int n = 0; n < 3000; ++n) {
     const Eigen::VectorXd errors = ErrorsAt(robot, legs, to, pose);
     if (errors.norm() < 1e-9) break;
     pose = Displaced(pose,
@@ -81,6 +82,7 @@ struct Way {
 Way RandomHexapodWay(std::mt19937_64& generator, double displacement) {
   const GoughStewart hexapod = DesktopHexapod(generator, 0.01);
   Way way{ParallelRobotOf(hexapod), hexapod.home, {}};
+  for (RobotLeg& leg : way.robot.legs) leg.joint_range.reset();
   way.from = RandomPoseNear(generator, way.robot, hexapod.home, displacement);
   way.to = RandomPoseNear(generator, way.robot, hexapod.home, displacement);
   return way;
@@ -102,7 +104,7 @@ void ExpectVerdictHolds(const Way& way, const JudgedLegSet& set) {
       break;
     case LegSetVerdict::kPossible:
       EXPECT_TRUE(set.is_path_simulated || LeastOnWay(way.robot, set.legs, way.from, way.to) > 1e-5);
-      EXPECT_TRUE(!set.simulated || arrives());
+      EXPECT_TRUE(arrives());
       break;
     default:
       break;
@@ -165,8 +167,8 @@ bool PassesAndComesBack(const ParallelRobot& robot, const std::vector<int>& legs
   return false;
 }
 
-// Where the straight way is not proved free but the simulated one is, errors are of that one.
-TEST(SelectLegs, PredictsErrorsOnTheWayThatIsProved) {
+// Also where the straight way is not proved free and the simulated one is.
+TEST(SelectLegs, PredictsErrorsOnTheSimulatedWay) {
   std::mt19937_64 generator = TestGenerator();
   LegSelectionOptions options;
   options.leg_sets = {{0, 1}};
@@ -178,7 +180,7 @@ TEST(SelectLegs, PredictsErrorsOnTheWayThatIsProved) {
     const JudgedLegSet set = SelectLegs(random.robot, random.pose, to, options).sets.front();
     if (!set.is_path_simulated) continue;
     EXPECT_EQ(set.verdict, LegSetVerdict::kPossible);
-    double largest_m = 0;
+    double largest_m = set.error_at_goal->position_m;
     for (const DirectionServoSample& sample : set.simulated->samples) {
       const auto error = LargestErrorByConeNoise(random.robot, set.legs, sample.base_from_platform,
                                                  options.cone_half_angle_rad);
@@ -209,6 +211,33 @@ TEST(SelectLegs, PassesOverLegsThatDoNotShow) {
     EXPECT_EQ(set.verdict == LegSetVerdict::kInvisible, set.why.starts_with("leg 3 does not show"));
   }
   EXPECT_TRUE(found.has_choice);
+}
+
+// All its legs take a hexapod to the goal, and some of them are too short or too long on the way.
+TEST(SelectLegs, PassesOverWaysOnWhichALegLeavesItsJointRange) {
+  std::mt19937_64 generator = TestGenerator();
+  Way way = RandomHexapodWay(generator, 0.03);
+  const std::vector<std::vector<int>> all = {{0, 1, 2, 3, 4, 5}};
+  LegSelectionOptions options;
+  options.leg_sets = all;
+  const LegSelection free = SelectLegs(way.robot, way.from, way.to, options);
+  ASSERT_TRUE(free.has_choice);
+  double least = 1, largest = 0;
+  for (const DirectionServoSample& sample : free.sets[0].simulated->samples) {
+    const double reading = StateOf(way.robot.legs[3], sample.base_from_platform)->reading;
+    least = std::min(least, reading);
+    largest = std::max(largest, reading);
+  }
+  way.robot.legs[3].joint_range = {least - 1e-6, largest + 1e-6};
+  EXPECT_TRUE(SelectLegs(way.robot, way.from, way.to, options).has_choice);
+  for (const double cut : {least + 0.1 * (largest - least), largest - 0.1 * (largest - least)}) {
+    way.robot.legs[3].joint_range = cut < (least + largest) / 2 ? std::array<double, 2>{cut, largest + 1}
+                                                                : std::array<double, 2>{least - 1, cut};
+    const LegSelection found = SelectLegs(way.robot, way.from, way.to, options);
+    EXPECT_FALSE(found.has_choice);
+    EXPECT_EQ(found.sets[0].verdict, LegSetVerdict::kOutOfReach);
+    EXPECT_TRUE(found.sets[0].why.starts_with("leg 4 leaves its joint range on ")) << found.sets[0].why;
+  }
 }
 
 // A servo leaves the straight line between its ends, and its legs have to show where it goes.

@@ -336,6 +336,7 @@ function dataOf(robot, perLeg, further) {
     robot_path: way(robot, isChosen ? "free" : "undecided"),
     sets,
     choice: isChosen ? best.legs : null,
+    why_no_choice: isChosen ? null : "no set of legs leads to the goal",
     warnings: isChosen
       ? []
       : ["the straight way of the robot itself, all joints held: the path passes a singularity"],

@@ -16,7 +16,7 @@ const WORDS = [
   [
     "Aspect",
     "A region of poses without a singularity of the hidden robot between them; the servo stays in the one in which it " +
-      "starts.",
+      "starts, which can hold several assembly modes.",
   ],
   [
     "Type 1, Type 2",

@@ -29,7 +29,7 @@ function entries(document, set) {
       errors(figure, "largest_error_at_goal"),
       "of the platform, by directions that are off",
     ],
-    ["Largest error on the way", errors(figure, "largest_error_on_path"), "at the poses of the straight way"],
+    ["Largest error on the way", errors(figure, "largest_error_on_path"), "at the poses of the simulated way"],
     ["Simulated servo", set.simulation ? simulated(figure, set.simulation) : "not simulated"],
   ];
 }

@@ -1,5 +1,5 @@
 // The verdict over all sets in plain words. No page elements here.
-import { plural, sentence, significant, tick, withUnit } from "../shared/format.js";
+import { capitalized, plural, sentence, significant, tick, withUnit } from "../shared/format.js";
 import { DEGREES, MM, SECONDS } from "../shared/quantities.js";
 import { edgesSentence, endOf, legsOf, otherModes, pathVerdict, verdictOf } from "./wording.js";
 
@@ -59,23 +59,23 @@ function ofModes({ assembly_modes: modes }) {
   if (count === 0 && modes.status === "complete")
     return "At no other pose do all these legs point as they do at the goal.";
   return (
-    `Other poses at which all these legs point as they do at the goal: ${text}. A servo that starts in the goal’s own ` +
-    "aspect does not end there."
+    `Other poses at which all these legs point as they do at the goal: ${text}. A servo from another start can end there, ` +
+    "even from the goal’s own aspect."
   );
 }
 
-function none({ sets = [], robot_path: way }) {
+function none({ sets = [], robot_path: way, why_no_choice: why }) {
   const counts = new Map();
   for (const set of sets) counts.set(verdictOf(set).label, (counts.get(verdictOf(set).label) ?? 0) + 1);
   const verdicts = [...counts].map(([label, count]) => `${label.toLowerCase()}: ${plural(count, "set")}`);
   const ofRobot = way && way.verdict !== "free" && sentence(`the robot’s own straight way: ${way.why}`);
   return {
     level: "bad",
-    headline: "No set of legs leads to the goal",
+    headline: capitalized(why ?? "no set of legs leads to the goal"),
     sentences: [
       verdicts.length > 0 && sentence(verdicts.join("; ")),
       ofRobot,
-      sets.length === 1 && sentence(`Legs ${legsOf(sets[0])}: ${sets[0].why}`),
+      sets.length === 1 && sets[0].why && sentence(`Legs ${legsOf(sets[0])}: ${sets[0].why}`),
       edgesSentence(sets),
     ].filter(Boolean),
   };

@@ -5,7 +5,7 @@ const VERDICTS = {
   possible: {
     label: "Leads to the goal",
     level: "good",
-    text: "Start and goal are proved to be in one aspect of the hidden robot.",
+    text: "Start and goal are proved to be in one aspect of the hidden robot, and the simulated servo ends at the goal.",
   },
   arrives: {
     label: "Arrives, not proved",
@@ -37,11 +37,15 @@ const VERDICTS = {
     level: "bad",
     text: "The directions of these legs do not hold the platform anywhere.",
   },
-  invisible: { label: "Not in sight", level: "bad", text: "A leg does not show all the way." },
+  invisible: {
+    label: "Not in sight",
+    level: "bad",
+    text: "A leg does not show at the start, at the goal or along the simulated way.",
+  },
   "out-of-reach": {
     label: "Out of reach",
     level: "bad",
-    text: "A leg does not reach the start, the goal or the way between.",
+    text: "A leg does not reach the start, the goal or the simulated way, or would leave its joint range there.",
   },
 };
 
