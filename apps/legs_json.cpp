@@ -7,6 +7,7 @@
 
 #include "apps/json_text.h"
 #include "apps/legs_map_json.h"
+#include "apps/option_values.h"
 #include "apps/wording.h"
 
 namespace legible {
@@ -133,8 +134,19 @@ ordered_json SetJson(const LegsRun& run, const JudgedLegSet& set, const Controll
           {"simulation", SimulationJson(set.simulated, run.to)}};
 }
 
+// Where RPS legs did not allow the pose that was given.
+void AddPoseTaken(const std::optional<Vector6d>& given, const Rigid3& taken, const char* option,
+                  std::vector<std::string>& warnings) {
+  constexpr double kSamePose = 1e-9;  // m, rad
+  if (!given || Displacement(PoseAt(*given), taken).lpNorm<Eigen::Infinity>() <= kSamePose) return;
+  warnings.push_back(fmt::format("the RPS legs do not allow the pose of {}; one near to it is taken: {}",
+                                 option, PoseText(taken)));
+}
+
 std::vector<std::string> Warnings(const LegsRun& run) {
   std::vector<std::string> warnings;
+  AddPoseTaken(run.settings.from, run.from, "--from", warnings);
+  AddPoseTaken(run.settings.to, run.to, "--to", warnings);
   if (run.selection.robot_path.verdict != PathVerdict::kFree)
     warnings.push_back(fmt::format("the straight way of the robot itself, all joints held: {}",
                                    run.selection.robot_path.why));

@@ -20,16 +20,27 @@ constexpr double kStepTimesGain = 0.008;
 constexpr double kLongestTimesGain = 48;
 constexpr size_t kMostMappedSets = 6;
 
-Rigid3 PoseOf(const std::optional<Vector6d>& pose, const Rigid3& home) {
-  if (!pose) return home;
-  return {RotationFromVector(pose->tail<3>()), pose->head<3>()};
+// As given, or as near to it as RPS legs allow.
+Rigid3 PoseOf(const std::optional<Vector6d>& pose, const ParallelRobot& robot) {
+  return pose ? BackToMotion(robot, PoseAt(*pose)) : robot.home;
+}
+
+void DemandCanTake(const LegsSettings& settings, const ParallelRobot& robot, const Rigid3& pose,
+                   const char* option) {
+  if (CanTake(robot, pose)) return;
+  std::vector<std::string> moved;
+  for (const int coordinate : FreeCoordinates(robot.motion))
+    moved.push_back(CoordinateNames()[static_cast<size_t>(coordinate)]);
+  throw InputError(settings.model, 0,
+                   fmt::format("has a platform that cannot take the pose of {}: from its home it moves {}{}",
+                               option, fmt::join(moved, ", "),
+                               LegsKeptInPlanes(robot).empty() ? "" : ", less what its RPS legs forbid"),
+                   "give it no motion that the platform does not have");
 }
 
 void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, const Rigid3& pose,
                      const char* option) {
-  if (!CanTake(robot, pose))
-    throw InputError(settings.model, 0, fmt::format("has a platform that cannot take the pose of {}", option),
-                     "give it no motion that the platform does not have");
+  DemandCanTake(settings, robot, pose, option);
   for (size_t i = 0; i < robot.legs.size(); ++i) {
     const auto state = StateOf(robot.legs[i], pose);
     const auto& range = robot.legs[i].joint_range;
@@ -40,14 +51,21 @@ void DemandReachable(const LegsSettings& settings, const ParallelRobot& robot, c
     if (!IsWithinJointRange(robot.legs[i], state->reading))
       throw InputError(
           settings.model, 0,
-          fmt::format("has a leg {} that would read {:.4g} at the pose of {}, beyond its range of {:.4g} to "
-                      "{:.4g}",
-                      i + 1, state->reading, option, (*range)[0], (*range)[1]),
+          fmt::format(
+              "has a leg {} that would read {:.4g} {} at the pose of {}, beyond its range of {:.4g} to "
+              "{:.4g}",
+              i + 1, state->reading, ReadsAngle(robot.legs[i].chain) ? "rad" : "m", option, (*range)[0],
+              (*range)[1]),
           "give a pose within reach");
   }
 }
 
 void DemandLegs(const LegsSettings& settings, const ParallelRobot& robot) {
+  if (settings.leg_sets.empty() && robot.legs.size() > kMostLegsToChooseFrom)
+    throw InputError(settings.model, 0,
+                     fmt::format("has {} legs, and every set is judged of no more than {}", robot.legs.size(),
+                                 kMostLegsToChooseFrom),
+                     "name the sets to judge with --legs");
   for (const std::vector<int>& legs : settings.leg_sets)
     for (const int leg : legs)
       if (leg >= static_cast<int>(robot.legs.size()))
@@ -86,8 +104,8 @@ LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
   LegsRun run;
   run.settings = settings;
   run.robot = ReadParallelRobot(settings.model);
-  run.from = PoseOf(settings.from, run.robot.home);
-  run.to = PoseOf(settings.to, run.robot.home);
+  run.from = PoseOf(settings.from, run.robot);
+  run.to = PoseOf(settings.to, run.robot);
   DemandLegs(settings, run.robot);
   DemandReachable(settings, run.robot, run.from, "--from");
   DemandReachable(settings, run.robot, run.to, "--to");
@@ -105,8 +123,8 @@ LegsRun JudgeLegs(const LegsSettings& settings, ProgressLine& progress) {
     run.by_lines.push_back(ControllabilityOf(run.robot, set.legs, run.to, SeenFeature::kLines));
   run.robot_modes = RobotModesAt(run.robot, run.to);
   if (settings.map || settings.format == LegsFormat::kHtml)
-    run.map = MapLegSets(settings, run.robot, SliceOf(settings, run.robot, run.to),
-                         SetsToMap(settings, run.selection), progress);
+    if (const auto slice = SliceOf(settings, run.robot, run.to))
+      run.map = MapLegSets(settings, run.robot, *slice, SetsToMap(settings, run.selection), progress);
   return run;
 }
 

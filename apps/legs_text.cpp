@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/option_values.h"
 #include "apps/text_table.h"
 #include "apps/wording.h"
 #include "core/geometry/orientation.h"
@@ -44,6 +45,19 @@ std::string ModeCountText(const ordered_json& modes) {
   return fmt::format("{}{}", modes.at("modes").size() - 1, status == "complete" ? "" : " or more");
 }
 
+// Of all sets but the chosen one, of which a warning says it.
+std::string OpenModesText(const ordered_json& document) {
+  std::string text;
+  for (const ordered_json& set : document.at("sets")) {
+    const ordered_json& modes = set.at("assembly_modes");
+    if (modes.is_null() || modes.at("status") != "incomplete" || set.at("legs") == document.at("choice"))
+      continue;
+    text += fmt::format("  {}: other modes may not be all: {}\n", LegsOf(set),
+                        modes.at("why").get<std::string>());
+  }
+  return text;
+}
+
 std::string SetsText(const ordered_json& document) {
   std::vector<TableRow> rows = {
       {"legs", "verdict", "other modes", "largest error at goal", "on the way", "by edges"}};
@@ -56,14 +70,13 @@ std::string SetsText(const ordered_json& document) {
   for (const ordered_json& set : document.at("sets"))
     if (!set.at("why").get<std::string>().empty())
       text += fmt::format("  {}: {}\n", LegsOf(set), set.at("why").get<std::string>());
-  return text;
+  return text + OpenModesText(document);
 }
 
-std::string PoseText(const ordered_json& pose) {
+Rigid3 PoseOf(const ordered_json& pose) {
   const auto t = pose.at("translation_m").get<std::vector<double>>();
   const auto q = pose.at("rotation_xyzw").get<std::vector<double>>();
-  return fmt::format("({:.4f}, {:.4f}, {:.4f}) m, xyzw ({:.4f}, {:.4f}, {:.4f}, {:.4f})", t[0], t[1], t[2],
-                     q[0], q[1], q[2], q[3]);
+  return {Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {t[0], t[1], t[2]}};
 }
 
 // What keeps the robot from a mode.
@@ -80,11 +93,13 @@ std::string ModesText(const ordered_json& document) {
     if (set.at("assembly_modes").is_null()) continue;
     const ordered_json& modes = set.at("assembly_modes").at("modes");
     for (size_t i = 1; i < modes.size(); ++i)
-      text += fmt::format("  {}: {}{}\n", LegsOf(set), PoseText(modes[i].at("base_from_platform")),
+      text += fmt::format("  {}: {}{}\n", LegsOf(set), PoseText(PoseOf(modes[i].at("base_from_platform"))),
                           HowFarOutText(modes[i]));
   }
   if (text.empty()) return "";
-  return "\nWhere else the seen legs point as they do at the goal\n" + text;
+  return "\nWhere else the seen legs point as they do at the goal, as --to takes it (x y z rx ry rz, m and "
+         "rad)\n" +
+         text;
 }
 
 std::string PathText(const ordered_json& document) {

@@ -95,6 +95,14 @@ Vector6d ParseSix(const std::string& text, const std::string& what) {
 
 Vector6d ParsePose(const std::string& text) { return ParseSix(text, "x y z rx ry rz"); }
 
+std::string PoseText(const Rigid3& base_from_platform) {
+  constexpr double kNothing = 1e-10;
+  Vector6d pose;
+  pose << base_from_platform.translation, VectorFromRotation(base_from_platform.rotation);
+  pose = (pose.array().abs() < kNothing).select(0, pose);
+  return fmt::format("{:.10g}", fmt::join(pose, " "));
+}
+
 std::vector<int> ParseLegs(const std::string& text, int most) {
   std::vector<int> legs;
   for (const std::string& part : Split(text, ',')) {

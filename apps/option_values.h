@@ -28,6 +28,8 @@ CoordinateRanges ParseRanges(const std::vector<std::string>& texts, const std::s
 // Six numbers between blanks or commas; `what` names them in the message.
 Vector6d ParseSix(const std::string& text, const std::string& what);
 Vector6d ParsePose(const std::string& text);  // "x y z rx ry rz"
+// As ParsePose reads it, to 1e-9 m and rad where the robot is of some metres.
+std::string PoseText(const Rigid3& base_from_platform);
 // "1,3,5", from 1 to `most`; result from 0.
 std::vector<int> ParseLegs(const std::string& text, int most = kLegCount);
 

@@ -14,18 +14,27 @@
 
 namespace legible {
 
-// Poses of which two coordinates change: of x y z (m) and the rotation vector (rad) of base_from_platform, 0
-// to 5.
+// x y z (m) and the rotation vector (rad) of a pose: the coordinates of a slice, 0 to 5.
+Vector6d CoordinatesOf(const Rigid3& base_from_platform);
+Rigid3 PoseAt(const Vector6d& coordinates);
+
+// Rates of these by the twists of the platform's motion at the pose, which are orthonormal; lengths in units
+// of the robot's size. 6 x dof; the row of a coordinate along which the platform does not move is zero.
+Eigen::Matrix<double, 6, Eigen::Dynamic> CoordinateRates(const ParallelRobot& robot,
+                                                         const Rigid3& base_from_platform);
+
+// Poses of which two coordinates change.
 struct PoseSlice {
   std::array<int, 2> axes = {0, 1};
   Eigen::VectorXd first, second;     // values of the two
-  Vector6d held = Vector6d::Zero();  // of the other four
+  Vector6d held = Vector6d::Zero();  // of the other four, from which RPS legs may take the platform away
 
   Eigen::Index CellCount() const { return first.size() * second.size(); }
 };
 
-// Of a cell: first[cell % first.size()] and second[cell / first.size()], brought back to what RPS legs allow.
-Rigid3 PoseOfCell(const ParallelRobot& robot, const PoseSlice& slice, Eigen::Index cell);
+// Of a cell: first[cell % first.size()] and second[cell / first.size()] to 1e-9, the other coordinates as
+// held or, where RPS legs do not allow that, near to it. Nothing where the platform cannot take such a pose.
+std::optional<Rigid3> PoseOfCell(const ParallelRobot& robot, const PoseSlice& slice, Eigen::Index cell);
 
 enum class CellState {
   kFine,

@@ -1,4 +1,5 @@
 // `legible legs`, run as a user runs it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "datasets/model_file.h"
@@ -68,12 +70,50 @@ TEST(LegsCommand, JudgesTheSetsThatItIsAskedFor) {
   EXPECT_EQ(document["sets"].size(), 2U);
 }
 
+TEST(LegsCommand, JudgesASetOnceInWhateverOrderItsLegsAreNamed) {
+  const json sets =
+      Document({kQuattro, "--to", kGoal, "--legs", "3,2", "--legs", "1,4", "--legs", "2,3"})["sets"];
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_NE(sets[0]["legs"], sets[1]["legs"]);
+}
+
 TEST(LegsCommand, PrintsATableForPeople) {
   const ProgramRun run = Legs({kQuattro, "--from", kStart, "--to", kGoal});
   EXPECT_EQ(run.exit_code, kExitSuccess);
   for (const char* words :
        {"other-aspect", "largest error at goal", "Watch legs ", "Where else the seen legs point"})
     EXPECT_THAT(run.out, HasSubstr(words));
+}
+
+// What stands behind `opening` on its line.
+std::string LineAfter(const std::string& text, const std::string& opening) {
+  const size_t start = text.find(opening);
+  if (start == std::string::npos) {
+    ADD_FAILURE() << "no \"" << opening << "\" in " << text;
+    return {};
+  }
+  const size_t end = text.find('\n', start);
+  return text.substr(start + opening.size(), end - start - opening.size());
+}
+
+TEST(LegsCommand, PrintsOtherModesAsPosesThatToTakes) {
+  const std::vector<std::string> both = {kQuattro, "--to", kGoal, "--legs", "1,4"};
+  const std::string table = Legs(both).out;
+  const std::string pose = LineAfter(table.substr(table.find("Where else")), "  1,4: ");
+  const json mode = Document(both)["sets"][0]["assembly_modes"]["modes"][1]["base_from_platform"];
+  const json taken = Document({kQuattro, "--to", pose, "--legs", "1,4"})["to"];
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(taken["translation_m"][i].get<double>(), mode["translation_m"][i].get<double>(), 1e-9);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(taken["rotation_xyzw"][i].get<double>(), mode["rotation_xyzw"][i].get<double>(), 1e-9);
+}
+
+// At its home this robot has multiple roots.
+TEST(LegsCommand, SaysWhyThereMayBeMoreModesOfASetThatIsNotTheChoiceToo) {
+  const ProgramRun run = Legs({kRobots + "planar-3rrr.yaml", "--from", "0 0 0 0 0 1", "--legs", "1,2,3"});
+  EXPECT_EQ(run.exit_code, kExitNoResult);
+  EXPECT_THAT(run.out, HasSubstr("1 or more"));
+  EXPECT_THAT(LineAfter(run.out, "1,2,3: other modes may not be all: "), HasSubstr("roots are multiple"));
 }
 
 // Section 4.3: parallel P joints cannot be controlled by directions; lines show the motion along them.
@@ -139,6 +179,78 @@ TEST(LegsCommand, ThePagesCurvesBeginAtTheStartAndEndWhereTheSimulationDoes) {
   for (const json& errors : curves["errors_rad"]) EXPECT_EQ(errors.size(), curves["time_s"].size());
 }
 
+// It rises and tilts; level it stays on its axis.
+TEST(LegsCommand, MapsARobotOfRpsLegsOverCoordinatesThatItMovesIn) {
+  const std::string rps = kRobots + "3-rps.yaml";
+  const json maps = PageData(Legs({rps, "--format", "html"}).out)["document"]["maps"];
+  EXPECT_EQ(maps["x"]["coordinate"], "z");
+  EXPECT_EQ(maps["y"]["coordinate"], "rx");
+  std::set<double> errors_m;
+  for (const json& row : maps["sets"][0]["position_error_m"])
+    for (const json& error : row)
+      if (error.is_number()) errors_m.insert(error.get<double>());
+  EXPECT_GT(errors_m.size(), 500U);  // a cell is a pose of its own
+  // Legs of 0.4 to 0.65 m whose ends are 0.1 m apart sideways: z up to 0.642 m.
+  EXPECT_LT(maps["x"]["values"].front().get<double>(), 0.4);
+  EXPECT_GT(maps["x"]["values"].front().get<double>(), 0.3);
+  EXPECT_GT(maps["x"]["values"].back().get<double>(), 0.642);
+  EXPECT_LT(maps["x"]["values"].back().get<double>(), 0.75);
+  for (const char* map : {"x=-0.1:0.1,y=-0.1:0.1", "z=0.4:0.6,rz=-0.1:0.1"}) {
+    const ProgramRun refused = Legs({rps, "--map", map, "--format", "json"});
+    EXPECT_EQ(refused.exit_code, kExitBadInput);
+    EXPECT_THAT(refused.err, HasSubstr("but along z, rx, ry; "));
+  }
+}
+
+TEST(LegsCommand, SaysWhichPoseRpsLegsAllowNearTheOneGivenAndTakesThatAsItIs) {
+  const std::string rps = kRobots + "3-rps.yaml";
+  const ProgramRun run = Legs({rps, "--to", "0 0 0.5 0 0.1 0"});
+  EXPECT_EQ(run.exit_code, kExitSuccess);
+  const std::string pose = LineAfter(
+      run.err, "legible: warning: the RPS legs do not allow the pose of --to; one near to it is taken: ");
+  EXPECT_EQ(Legs({rps, "--to", pose}).err, "");
+  const json document = Document({rps, "--from", "0 0 0.5 0 0.1 0", "--to", pose});
+  EXPECT_EQ(document["warnings"].size(), 1U);
+  EXPECT_THAT(document["warnings"][0].get<std::string>(), HasSubstr("the pose of --from"));
+  // Tilted about y alone, the platform joints at (-0.1, +-0.1 sqrt 3) m keep to the planes y = -+sqrt 3 x.
+  const double x_m = document["to"]["translation_m"][0];
+  const double ry_rad = 2 * std::asin(document["to"]["rotation_xyzw"][1].get<double>());
+  EXPECT_NEAR(x_m, -0.1 * (1 - std::cos(ry_rad)), 1e-9);
+  EXPECT_NEAR(ry_rad, 0.1, 1e-3);
+}
+
+std::string NineLeggedRobot() {
+  std::string text =
+      "robot: parallel\nname: Nine\nplatform: spatial\n"
+      "home: {rotation_xyzw: [0, 0, 0, 1], translation_m: [0, 0, 0.5]}\nlegs:\n";
+  for (int leg = 0; leg < 9; ++leg) {
+    const double base_rad = 0.7 * leg, platform_rad = base_rad + (leg % 2 == 0 ? 0.3 : -0.2);
+    text += fmt::format(
+        "  - {{chain: \"U_PS\", base_joint_m: [{}, {}, 0], platform_joint_m: [{}, {}, 0], radius_m: 0.01}}\n",
+        0.3 * std::cos(base_rad), 0.3 * std::sin(base_rad), 0.2 * std::cos(platform_rad),
+        0.2 * std::sin(platform_rad));
+  }
+  return text;
+}
+
+TEST(LegsCommand, AsksForSetsOfARobotWithMoreLegsThanItTriesEverySetOf) {
+  const TemporaryFolder folder;
+  const std::string nine = folder.Write("robot.yaml", NineLeggedRobot()).string();
+  const ProgramRun all = Legs({nine});
+  EXPECT_EQ(all.exit_code, kExitBadInput);
+  EXPECT_THAT(all.err, AllOf(HasSubstr("has 9 legs"), HasSubstr("--legs")));
+  EXPECT_EQ(Document({nine, "--legs", "1,5,9"})["sets"].size(), 1U);
+}
+
+TEST(LegsCommand, SaysInWhichUnitAJointWouldReadBeyondItsRange) {
+  EXPECT_THAT(Legs({kRobots + "3-rps.yaml", "--to", "0 0 0.7 0 0 0"}).err,
+              HasSubstr("would read 0.7071 m at the pose of --to"));  // 0.7 up, 0.1 sideways
+  const TemporaryFolder folder;
+  const std::string text = Replaced(Bytes(kRobots + "planar-3rrr.yaml"), "platform_joint_m: [0, 0.12, 0]",
+                                    "platform_joint_m: [0, 0.12, 0], joint_range_rad: [-1e-3, 1e-3]");
+  EXPECT_THAT(Legs({folder.Write("robot.yaml", text).string()}).err, HasSubstr(" rad at the pose of --from"));
+}
+
 TEST(LegsCommand, LeavesOutLegsThatTheModelsCameraDoesNotSee) {
   const TemporaryFolder folder;
   CalibratedModel model;
@@ -154,10 +266,14 @@ TEST(LegsCommand, RefusesBadInputInOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{kRobots + "nothing.yaml"}, "nothing.yaml"},
       {{kQuattro, "--to", "1 2 3"}, "six"},
-      {{kQuattro, "--to", "0 0 -0.7 0.1 0 0"}, "cannot take the pose of --to"},
+      {{kQuattro, "--to", "0 0 -0.7 0.1 0 0"},
+       "cannot take the pose of --to: from its home it moves x, y, z, rz;"},
       {{kQuattro, "--from", "0 0 -3 0 0 0"}, "does not reach the pose of --from"},
       {{kQuattro, "--legs", "1,5"}, "no leg 5"},
       {{kQuattro, "--noise", "0"}, "not more than 0"},
+      {{kQuattro, "--noise", "21"}, "more than 20 degrees"},
+      {{kQuattro, "--gain", "1e4"}, "not from 0.001 to 1000 per second"},
+      {{kQuattro, "--gain", "1e-4"}, "not from 0.001 to 1000 per second"},
       {{kQuattro, "--format", "yaml"}, "--format"}};
   for (const auto& [options, words] : cases) {
     const ProgramRun run = Legs(options);
@@ -198,9 +314,13 @@ TEST(LegsCommand, RefusesMapsThatItCannotDraw) {
   EXPECT_THAT(Legs({kQuattro, "--map", "x=0:1,y=1:1"}).err, HasSubstr("the range of y is empty"));
   EXPECT_THAT(Legs({kQuattro, "--map", "x=0:1,w=0:1"}).err,
               HasSubstr("\"w\" is none of x, y, z, rx, ry, rz"));
-  const ProgramRun tilted = Legs({kQuattro, "--map", "x=0:1,rx=0:1", "--format", "json"});
-  EXPECT_EQ(tilted.exit_code, kExitBadInput);
-  EXPECT_THAT(tilted.err, HasSubstr("does not move along the coordinates of --map"));
+  // The second is not tilted in its corners, which are whole turns away.
+  for (const char* map : {"x=0:1,rx=0:1", "x=-0.1:0.1,rx=-6.283185307179586:6.283185307179586"}) {
+    const ProgramRun tilted = Legs({kQuattro, "--map", map, "--format", "json"});
+    EXPECT_EQ(tilted.exit_code, kExitBadInput);
+    EXPECT_THAT(tilted.err, HasSubstr("does not move along both coordinates of --map"));
+    EXPECT_THAT(tilted.err, HasSubstr("but along x, y, z, rz; "));
+  }
 }
 
 TEST(LegsCommand, ShowsTheHexapodsOwnAssemblyModesAndWhichModesItsJointsCanReach) {

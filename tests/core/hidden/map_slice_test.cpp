@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <array>
 #include <cmath>
 
 #include "core/robots/platform_motion.h"
@@ -85,16 +87,77 @@ TEST(MapSlice, LargestErrorOfTwoRaysIsThatOfTriangulation) {
   }
 }
 
-TEST(MapSlice, PosesOfRpsRobotsAreThoseThatTheirLegsAllow) {
-  std::mt19937_64 generator = TestGenerator();
-  const RobotAtPose random = RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS"});
+PoseSlice SliceAround(const Rigid3& pose, const std::array<int, 2>& axes, double reach) {
   PoseSlice slice;
-  slice.axes = {2, 3};
-  slice.held << random.pose.translation, VectorFromRotation(random.pose.rotation);
-  slice.first = slice.held[2] + Eigen::ArrayXd::LinSpaced(5, -0.05, 0.05);
-  slice.second = slice.held[3] + Eigen::ArrayXd::LinSpaced(5, -0.1, 0.1);
+  slice.axes = axes;
+  slice.held = CoordinatesOf(pose);
+  slice.first = slice.held[axes[0]] + Eigen::ArrayXd::LinSpaced(5, -reach, reach);
+  slice.second = slice.held[axes[1]] + Eigen::ArrayXd::LinSpaced(5, -reach, reach);
+  return slice;
+}
+
+TEST(MapSlice, PosesOfRpsRobotsAreOnTheirCellsAndSuchThatTheirLegsAllow) {
+  std::mt19937_64 generator = TestGenerator();
+  int tried = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const RobotAtPose random = RandomSpatialRobot(generator, {"R_PS", "R_PS", "R_PS"});
+    const Eigen::MatrixXd rates = CoordinateRates(random.robot, random.pose)(std::array{2, 3}, Eigen::all);
+    if (rates.jacobiSvd().singularValues()[1] < 0.3) continue;  // one follows from the other
+    ++tried;
+    const PoseSlice slice = SliceAround(random.pose, {2, 3}, 0.03);
+    for (Eigen::Index cell = 0; cell < slice.CellCount(); ++cell) {
+      const auto pose = PoseOfCell(random.robot, slice, cell);
+      ASSERT_TRUE(pose) << "trial " << trial << ", cell " << cell;
+      EXPECT_TRUE(CanTake(random.robot, *pose));
+      const Vector6d coordinates = CoordinatesOf(*pose);
+      EXPECT_NEAR(coordinates[2], slice.first[cell % 5], 1e-9);
+      EXPECT_NEAR(coordinates[3], slice.second[cell / 5], 1e-9);
+    }
+  }
+  EXPECT_GT(tried, 5);
+}
+
+// Three legs in planes through the axis of symmetry: a platform that is level stays on the axis and does not
+// turn about it.
+TEST(MapSlice, NoPoseIsOnACellToWhichRpsLegsDoNotLetThePlatform) {
+  ParallelRobot robot;
+  robot.home.translation.z() = 0.5;
+  for (const double angle_rad : {0.0, 2.0, 4.0}) {
+    RobotLeg leg;
+    leg.chain = ChainFromText("R_PS");
+    const Eigen::Vector3d out(std::cos(angle_rad), std::sin(angle_rad), 0);
+    leg.base_joint_m = 0.3 * out;
+    leg.platform_joint_m = 0.2 * out;
+    leg.first_axis = Eigen::Vector3d::UnitZ().cross(out);
+    robot.legs.push_back(leg);
+  }
+  const Eigen::VectorXd moved = CoordinateRates(robot, robot.home).rowwise().norm();
+  for (const int coordinate : {0, 1, 5}) EXPECT_LT(moved[coordinate], 1e-12);
+  for (const int coordinate : {2, 3, 4}) EXPECT_GT(moved[coordinate], 0.5);
+  PoseSlice slice = SliceAround(robot.home, {0, 1}, 0.2);
   for (Eigen::Index cell = 0; cell < slice.CellCount(); ++cell)
-    EXPECT_TRUE(CanTake(random.robot, PoseOfCell(random.robot, slice, cell))) << cell;
+    EXPECT_EQ(PoseOfCell(robot, slice, cell).has_value(), cell == slice.CellCount() / 2) << cell;
+  slice = SliceAround(robot.home, {2, 3}, 0.2);
+  for (Eigen::Index cell = 0; cell < slice.CellCount(); ++cell)
+    EXPECT_TRUE(PoseOfCell(robot, slice, cell)) << cell;
+}
+
+TEST(MapSlice, RatesOfCoordinatesAreThoseOfSmallDisplacements) {
+  std::mt19937_64 generator = TestGenerator();
+  for (const auto& chains : {std::vector<std::string>{"R_PS", "R_PS", "R_PS"}, {"U_PS", "R_PS", "U_PS"}}) {
+    const RobotAtPose random = RandomSpatialRobot(generator, chains);
+    const double size_m = SizeOf_m(random.robot, random.pose), step = 1e-6;
+    const Eigen::MatrixXd basis = MotionBasisInSize(random.robot, random.pose, size_m);
+    const Eigen::MatrixXd rates = CoordinateRates(random.robot, random.pose);
+    ASSERT_EQ(rates.cols(), basis.cols());
+    for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+      Vector6d numeric = (CoordinatesOf(Displaced(random.pose, step * basis.col(k))) -
+                          CoordinatesOf(Displaced(random.pose, -step * basis.col(k)))) /
+                         (2 * step);
+      numeric.head<3>() /= size_m;
+      EXPECT_LT((numeric - rates.col(k)).norm(), 1e-7);
+    }
+  }
 }
 
 TEST(MapSlice, NothingIsSaidOfCellsThatALegDoesNotReach) {
