@@ -17,7 +17,7 @@ namespace {
 // A servo that ends this near to the goal, m and rad, has reached it.
 constexpr double kAtGoal = 1e-4;
 // Poses of a simulated way between which it is taken as straight, at most.
-constexpr size_t kMostWaypoints = 200;
+constexpr size_t kMostWaypoints = 60;
 
 std::vector<std::vector<int>> SetsOfLegs(const ParallelRobot& robot) {
   const int count = static_cast<int>(robot.legs.size());
@@ -148,15 +148,17 @@ class Judge {
     if (IsRuledOutAlong(way, "the simulated way", set)) return;
     set.error_on_path = set.error_at_goal;
     for (const Rigid3& pose : way) set.error_on_path = Larger(set.error_on_path, ErrorAt(set, pose));
-    set.verdict = LegSetVerdict::kPossible;
-    if (!is_free) CertifyOwnWay(way, set);
+    CertifyOwnWay(way, set);
   }
 
+  // The steps of a servo that passes near to a singularity can leap over it, and where it ends then depends
+  // on little: what is proved free all along does not.
   void CertifyOwnWay(const std::vector<Rigid3>& way, JudgedLegSet& set) const {
     const PathCertificate own_way = CertifyPath(robot_, RobotKind::kHidden, set.legs, way);
     if (own_way.verdict != PathVerdict::kFree)
       return RuleOut(set, LegSetVerdict::kArrives,
-                     set.path.why + "; simulated, the servo arrives, which is no proof");
+                     "simulated, the servo arrives, but its way is not proved free: " + own_way.why);
+    set.verdict = LegSetVerdict::kPossible;
     set.path = own_way;
     set.is_path_simulated = true;
   }

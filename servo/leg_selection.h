@@ -28,14 +28,14 @@ struct LegSelectionOptions {
 };
 
 enum class LegSetVerdict {
-  kPossible,      // start and goal are proved to be in one aspect, and the servo, simulated, ends at the goal
-  kArrives,       // the former could not be proved
-  kMisled,        // in one aspect, but simulated it ends elsewhere: an aspect can have several modes
-  kUndecided,     // that could not be proved, and the servo, simulated, ends elsewhere
-  kOtherAspect,   // proved: no path without a singularity
-  kInvisible,     // a leg does not show at start or goal or on the simulated way
-  kOutOfReach,    // a leg of the robot does not reach these, or leaves its joint range
-  kSingularGoal,  // the directions do not hold the platform at the goal, though elsewhere
+  kPossible,        // the servo, simulated, ends at the goal, and its way is proved free of singularities
+  kArrives,         // the latter could not be proved
+  kMisled,          // in one aspect, but simulated it ends elsewhere: an aspect can have several modes
+  kUndecided,       // that could not be proved, and the servo, simulated, ends elsewhere
+  kOtherAspect,     // proved: no path without a singularity
+  kInvisible,       // a leg does not show at start or goal or on the simulated way
+  kOutOfReach,      // a leg of the robot does not reach these, or leaves its joint range
+  kSingularGoal,    // the directions do not hold the platform at the goal, though elsewhere
   kUncontrollable,  // nor anywhere else
 };
 const char* ToString(LegSetVerdict verdict);
@@ -48,7 +48,7 @@ struct JudgedLegSet {
   PathCertificate path;             // of the hidden robot, straight (straight_path.h) or as it was simulated
   bool is_path_simulated = false;   // the latter
   AssemblyModes modes;              // of the hidden robot at the goal
-  // Nothing where the set is ruled out at start or goal; on the way at up to 200 poses of the simulated one,
+  // Nothing where the set is ruled out at start or goal; on the way at some 60 poses of the simulated one,
   // where that ends at the goal.
   std::optional<LargestPoseError> error_at_goal, error_on_path;
   std::optional<DirectionServoRun> simulated;  // where neither start nor goal nor the path rules the set out

@@ -47,10 +47,9 @@ Eigen::MatrixXd RatesAt(const ParallelRobot& robot, const std::vector<int>& legs
 // Where a servo of the hexapod's directions ends, by Euler's method.
 Rigid3 EndOfServo(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& from,
                   const Rigid3& to) {
-  constexpr double kStep = 0.008;  // gain times time, as the servo simulated has it: where a way comes near
-                                   // to a singularity its end can depend on it
+  constexpr double kStep = 0.01;  // gain times time
   Rigid3 pose = from;
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < 2500; ++n) {
     const Eigen::VectorXd errors = ErrorsAt(robot, legs, to, pose);
     if (errors.norm() < 1e-9) break;
     pose = Displaced(pose,
@@ -88,6 +87,15 @@ Way RandomHexapodWay(std::mt19937_64& generator, double displacement) {
   return way;
 }
 
+// Whether the simulated servo's own way is proved free. Steps near a singularity may leap over it, and where
+// such a servo ends depends on them.
+bool IsFreeAlong(const Way& way, const JudgedLegSet& set) {
+  std::vector<Rigid3> poses;
+  for (const DirectionServoSample& sample : set.simulated->samples)
+    poses.push_back(sample.base_from_platform);
+  return CertifyPath(way.robot, RobotKind::kHidden, set.legs, poses).verdict == PathVerdict::kFree;
+}
+
 // What the verdict says is what an independent simulation does. One in steps may leap over a singularity, so
 // of legs whose start and goal are in different aspects the way is looked at.
 void ExpectVerdictHolds(const Way& way, const JudgedLegSet& set) {
@@ -100,10 +108,10 @@ void ExpectVerdictHolds(const Way& way, const JudgedLegSet& set) {
       EXPECT_LT(LeastOnWay(way.robot, set.legs, way.from, way.to), 1e-4);
       break;
     case LegSetVerdict::kMisled:
-      EXPECT_FALSE(arrives());
+      EXPECT_TRUE(!arrives() || !IsFreeAlong(way, set));
       break;
     case LegSetVerdict::kPossible:
-      EXPECT_TRUE(set.is_path_simulated || LeastOnWay(way.robot, set.legs, way.from, way.to) > 1e-5);
+      EXPECT_EQ(set.path.verdict, PathVerdict::kFree);
       EXPECT_TRUE(arrives());
       break;
     default:

@@ -5,12 +5,12 @@ const VERDICTS = {
   possible: {
     label: "Leads to the goal",
     level: "good",
-    text: "Start and goal are proved to be in one aspect of the hidden robot, and the simulated servo ends at the goal.",
+    text: "The simulated servo ends at the goal, and its way is proved free of singularities of the hidden robot.",
   },
   arrives: {
     label: "Arrives, not proved",
     level: "care",
-    text: "It is not proved that no singularity lies between, but the simulated servo ends at the goal.",
+    text: "The simulated servo ends at the goal, but its way is not proved free of singularities: with other steps it may end elsewhere.",
   },
   undecided: {
     label: "Ends elsewhere, not proved",
