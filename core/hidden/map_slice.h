@@ -65,7 +65,7 @@ struct SliceMap {
 };
 
 // Of the real robot and of the robots hidden in servos of these sets of legs (from 0), whose seen directions
-// are off by at most half_angle_rad. `is_done(cells, of)` is told of progress.
+// are off by at most half_angle_rad. `progress(cells, of)` is told of every cell.
 SliceMap MapSlice(const ParallelRobot& robot, const PoseSlice& slice,
                   const std::vector<std::vector<int>>& leg_sets, double half_angle_rad,
                   const std::function<void(int cells, int of)>& progress = {});

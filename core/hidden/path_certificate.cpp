@@ -27,6 +27,8 @@ constexpr double kMargin = 1e-9, kAim = 0.7;
 constexpr int kWeightSteps = 5;
 constexpr double kLeastWeight = 1e-3;
 constexpr int kReachSamples = 64;
+// Bound of what is not known.
+constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
 
 // What is asked along the path.
 struct Question {
@@ -80,14 +82,16 @@ std::optional<HeldOnPiece> HeldOn(const Question& question, const StraightPath& 
 }
 
 // The least row sum norm found of a matrix whose elements have these moduli, by weights: near to Perron's
-// vector it is near to the spectral radius, the least that any weights give.
+// vector it is near to the spectral radius, the least that any weights give. Infinite where that overflows.
 double WeightedNorm(const Eigen::MatrixXd& moduli) {
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(moduli.cols());
   for (int i = 0; i < kWeightSteps; ++i) {
     weights = (moduli * weights).eval();
     weights.array() += kLeastWeight * weights.maxCoeff() + std::numeric_limits<double>::min();
+    weights /= weights.maxCoeff();
   }
-  return (moduli * weights).cwiseQuotient(weights).maxCoeff();
+  const Eigen::VectorXd row_sums = (moduli * weights).cwiseQuotient(weights);
+  return row_sums.allFinite() ? row_sums.maxCoeff() : kNothingKnown;
 }
 
 // A bound of |I - S^-1 U^T M V| for every M on the piece, with U S V^T the middle's singular value
@@ -95,7 +99,6 @@ double WeightedNorm(const Eigen::MatrixXd& moduli) {
 // S^-1 U^T M V is within half the length times its rate of that at the middle. Infinite where nothing is
 // known.
 double OffFullRank(const HeldOnPiece& held) {
-  constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd middle = held.middle.unaryExpr([](const RealBall& x) { return MidpointOf(x); });
   const Eigen::Index n = middle.cols();
   if (!middle.allFinite() || middle.rows() < n) return kNothingKnown;
@@ -152,6 +155,8 @@ struct Progress {
   int pieces = 0;
   RealBallVector correction;  // there
   bool is_lost = false;       // the next piece is no path that RPS legs are proved to allow
+
+  bool EndsElsewhere() const { return at >= 1 && !IsAtEnd(correction); }
 };
 
 // By which the next piece, or the next trial, is longer than one that was `off` full rank.
@@ -168,7 +173,7 @@ Progress ProveAlong(const Question& question, const StraightPath& path, const Re
     const auto piece = EnclosePiece(path, progress.at, progress.correction, end);
     const auto held = piece ? HeldOn(question, path, *piece) : std::nullopt;
     progress.is_lost = !piece;
-    const double off = held ? OffFullRank(*held) : std::numeric_limits<double>::infinity();
+    const double off = held ? OffFullRank(*held) : kNothingKnown;
     const bool is_proved = off < 1 - kMargin;
     length = std::min(length * NextLength(off, is_proved), kLargestPiece);
     if (!is_proved) continue;
@@ -180,15 +185,18 @@ Progress ProveAlong(const Question& question, const StraightPath& path, const Re
 }
 
 // Of a path that is not free all along.
-void SayWhyNotFree(const Question& question, const StraightPath& path, bool is_lost,
+void SayWhyNotFree(const Question& question, const StraightPath& path, const Progress& progress,
                    PathCertificate& certificate) {
   if (SignsDiffer(question, path)) {
     certificate.verdict = PathVerdict::kSingular;
     certificate.why = "start and goal lie on either side of a singularity: no path avoids it";
-  } else if (LeavesReach(question, path, certificate.at)) {
+  } else if (LeavesReach(question, path, progress.at)) {
     certificate.verdict = PathVerdict::kOutOfReach;
     certificate.why = "a leg cannot reach the straight path beyond there";
-  } else if (is_lost) {
+  } else if (progress.EndsElsewhere()) {
+    certificate.why =
+        "the straight path, brought back to what RPS legs allow, leads to another pose than the goal";
+  } else if (progress.is_lost) {
     certificate.why = "the straight path is not proved to go on there within what RPS legs allow";
   } else {
     certificate.why = "the path passes a singularity there, or very near to one";
@@ -226,11 +234,10 @@ PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, 
   certificate.at = progress.at;
   certificate.pieces = progress.pieces;
   certificate.pose = MiddleOf(path.PoseAt<RealBall>(progress.at, progress.correction));
-  const bool ends_elsewhere = progress.at >= 1 && !IsAtEnd(progress.correction);
-  if (progress.at >= 1 && !ends_elsewhere)
+  if (progress.at >= 1 && !progress.EndsElsewhere())
     certificate.verdict = PathVerdict::kFree;
   else
-    SayWhyNotFree(question, path, progress.is_lost || ends_elsewhere, certificate);
+    SayWhyNotFree(question, path, progress, certificate);
   return certificate;
 }
 

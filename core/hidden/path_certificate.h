@@ -35,7 +35,9 @@ struct PathCertificate {
 PathCertificate CertifyStraightPath(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
                                     const Rigid3& from, const Rigid3& to);
 
-// The same through all poses, straight from each to the next; `at` counts each part alike.
+// The same through all poses, straight from each to the next; `at` counts each part alike. Of RPS legs each
+// part begins and ends within 1e-8 m of its poses, where its correction is proved to be: that the end of one
+// and the start of the next, both so near to a pose, are joined without a singularity is not proved.
 PathCertificate CertifyPath(const ParallelRobot& robot, RobotKind kind, const std::vector<int>& legs,
                             const std::vector<Rigid3>& poses);
 

@@ -65,7 +65,7 @@ T DeterminantOf(Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix) {
     Eigen::Index pivot = k;
     for (Eigen::Index i = k + 1; i < matrix.rows(); ++i)
       if (std::abs(MiddleOf(matrix(i, k))) > std::abs(MiddleOf(matrix(pivot, k)))) pivot = i;
-    if (MiddleOf(matrix(pivot, k)) == 0) return T(0.0) * matrix(pivot, k);
+    if ((matrix.col(k).tail(matrix.rows() - k).array() == T(0.0)).all()) return T(0.0);
     if (pivot != k) {
       matrix.row(pivot).swap(matrix.row(k));
       determinant = -determinant;

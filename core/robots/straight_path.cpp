@@ -10,6 +10,7 @@ namespace legible {
 namespace {
 
 constexpr double kOnPlane_m = 1e-12;
+constexpr double kAtGoal_m = 1e-8;  // of c there
 constexpr int kMostNewtonSteps = 20;
 // Of the path, from root to root at least so many, lest Newton's method takes another root for the next.
 constexpr int kLeastSteps = 64;
@@ -60,6 +61,7 @@ std::optional<std::vector<Rigid3>> StraightPath::Poses(int count) const {
     const auto pose = PoseAt<double>(s, *c);
     poses.push_back({Eigen::Quaterniond(pose.rotation).normalized(), pose.translation_m});
   }
+  if (c->lpNorm<Eigen::Infinity>() > kAtGoal_m) return std::nullopt;
   return poses;
 }
 

@@ -49,7 +49,8 @@ class StraightPath {
   // The root c at s by Newton's method from a guess; nothing where that leads nowhere.
   std::optional<Eigen::VectorXd> CorrectionAt(double s, const Eigen::VectorXd& guess) const;
 
-  // Poses at equal steps of s, ends included, two or more; nothing where RPS legs let none go on.
+  // Poses at equal steps of s, ends included, two or more; nothing where RPS legs let none go on, or lead to
+  // another pose than the goal (c there is not 0, to 1e-8 m).
   std::optional<std::vector<Rigid3>> Poses(int count) const;
 
  private:

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iostream>
+#include <numbers>
 
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
@@ -331,42 +333,97 @@ TEST(CertifyStraightPath, IsFreeWhereThePathPassesASingularityClosely) {
   EXPECT_GE(free, 0.9 * close);
 }
 
-TEST(CertifyStraightPath, IsSingularWhereALegDoesNotReach) {
+// 5 m off; an RPS leg lets the platform translate in its plane.
+TEST(CertifyStraightPath, IsOutOfReachWhereALegDoesNotReachTheGoal) {
   std::mt19937_64 generator = TestGenerator();
-  for (int n = 0; n < 20; ++n) {
-    const RobotAtPose random = RandomTranslationRobot(generator, {"_R-{2-US}", "_R-{2-US}", "_R-{2-US}"});
-    Rigid3 to = random.pose;
-    to.translation.z() -= 5;
-    for (const RobotKind kind : {RobotKind::kHidden, RobotKind::kReal}) {
-      const std::vector<int> legs =
-          kind == RobotKind::kReal ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1};
-      const PathCertificate found = CertifyStraightPath(random.robot, kind, legs, random.pose, to);
-      EXPECT_NE(found.verdict, PathVerdict::kFree);
+  for (int n = 0; n < 20; ++n)
+    for (const RobotAtPose& random :
+         {RandomTranslationRobot(generator, {"_R-{2-US}", "_R-{2-US}", "_R-{2-US}"}),
+          RandomPlanarRobot(generator, {"_RRR", "_RRR", "_PRR"}),
+          RandomSpatialRobot(generator, {"R_PS", "_RUS", "_RUS", "_RUS", "_RUS"})}) {
+      const Eigen::Vector3d across = random.robot.motion == PlatformMotion::kTranslation
+                                         ? Eigen::Vector3d::UnitX()
+                                         : random.robot.legs[0].first_axis;
+      Rigid3 to = random.pose;
+      to.translation += 5 * RandomDirectionAcross(generator, across);
+      for (const RobotKind kind : {RobotKind::kHidden, RobotKind::kReal}) {
+        const PathCertificate found =
+            CertifyStraightPath(random.robot, kind, AllLegs(random.robot), random.pose, to);
+        EXPECT_EQ(found.verdict, PathVerdict::kOutOfReach);
+        EXPECT_THAT(found.why, testing::HasSubstr("cannot reach"));
+      }
     }
+}
+
+// Two legs with longer arms than rods, beside each other: the platform would pass their base joints on the
+// way.
+TEST(CertifyStraightPath, IsOutOfReachWhereALegDoesNotReachBetweenStartAndGoal) {
+  RobotLeg leg;
+  leg.chain = ChainFromText("_RRR");
+  leg.arm_m = 1;
+  leg.rod_m = 0.5;
+  RobotLeg other = leg;
+  other.base_joint_m = {0, -0.1, 0};
+  other.working_mode = -1;
+  const ParallelRobot robot{"", PlatformMotion::kPlanarPoint, {}, {leg, other}};
+  const Rigid3 from{Eigen::Quaterniond::Identity(), {-1, 0, 0}}, to{from.rotation, {1, 0, 0}};
+  ASSERT_TRUE(StatesOf(robot, {0, 1}, from) && StatesOf(robot, {0, 1}, to));
+  for (const RobotKind kind : {RobotKind::kHidden, RobotKind::kReal}) {
+    const PathCertificate found = CertifyStraightPath(robot, kind, {0, 1}, from, to);
+    EXPECT_EQ(found.verdict, PathVerdict::kOutOfReach) << found.why;
+    EXPECT_LT(found.at, 0.25);
   }
 }
 
-TEST(CertifyPath, IsFreeWhereEveryPartIs) {
+// Two joints at different heights, which their planes hold, as in path_enclosure_test.cpp: turned to the
+// mirror image, the platform stays as it was. Three more legs hold it all along the way, but for the planes.
+TEST(CertifyStraightPath, SaysWhereThePathLeadsToAnotherPoseThanTheGoal) {
+  constexpr double kTilt_rad = 0.4;
+  std::mt19937_64 generator = TestGenerator();
+  RobotAtPose random = RandomSpatialRobot(generator, {"R_PS", "R_PS", "U_PS", "U_PS", "U_PS", "U_PS"});
+  const Eigen::Vector3d joint_m = 0.3 * Eigen::Vector3d(std::cos(kTilt_rad), 0, std::sin(kTilt_rad));
+  for (const int side : {0, 1}) {
+    RobotLeg& leg = random.robot.legs[static_cast<size_t>(side)];
+    leg.first_axis = Eigen::Vector3d::UnitZ();
+    leg.platform_joint_m = side == 0 ? joint_m : Eigen::Vector3d(-joint_m);
+    leg.base_joint_m = {0, 1, leg.platform_joint_m.z()};
+  }
+  for (size_t i = 2; i < 6; ++i) random.robot.legs[i].base_joint_m.z() -= 1;
+  const Rigid3 to{RotationFromVector({0, 2 * kTilt_rad - std::numbers::pi, 0}), Eigen::Vector3d::Zero()};
+  ASSERT_TRUE(PosesOnPath(random.robot, {}, to, 11).empty());
+  const PathCertificate found = CertifyStraightPath(random.robot, RobotKind::kHidden, {2, 3, 4, 5}, {}, to);
+  EXPECT_EQ(found.verdict, PathVerdict::kUndecided);
+  EXPECT_EQ(found.at, 1);
+  EXPECT_THAT(found.why, testing::HasSubstr("another pose than the goal"));
+}
+
+// How many of 20 random paths of three parts are free.
+int FreePaths(const std::vector<std::string>& chains, const std::vector<int>& legs) {
   std::mt19937_64 generator = TestGenerator();
   int free = 0;
   for (int n = 0; n < 20; ++n) {
-    const RobotAtPose random = RandomSpatialRobot(generator, std::vector<std::string>(6, "U_PS"));
+    const RobotAtPose random = RandomSpatialRobot(generator, chains);
     std::vector<Rigid3> poses = {random.pose};
     for (int i = 0; i < 3; ++i) poses.push_back(RandomPoseNear(generator, random.robot, poses.back(), 0.05));
     bool all_free = true;
     double parts = 0;
     for (size_t i = 0; i + 1 < poses.size() && all_free; ++i) {
       const PathCertificate part =
-          CertifyStraightPath(random.robot, RobotKind::kHidden, {0, 2, 4}, poses[i], poses[i + 1]);
+          CertifyStraightPath(random.robot, RobotKind::kHidden, legs, poses[i], poses[i + 1]);
       all_free = part.verdict == PathVerdict::kFree;
       parts += part.at / 3;
     }
-    const PathCertificate found = CertifyPath(random.robot, RobotKind::kHidden, {0, 2, 4}, poses);
+    const PathCertificate found = CertifyPath(random.robot, RobotKind::kHidden, legs, poses);
     EXPECT_EQ(found.verdict == PathVerdict::kFree, all_free);
     EXPECT_NEAR(found.at, parts, 1e-12);
     if (all_free) ++free;
   }
-  EXPECT_GT(free, 3);
+  return free;
+}
+
+TEST(CertifyPath, IsFreeWhereEveryPartIs) {
+  EXPECT_GT(FreePaths(std::vector<std::string>(6, "U_PS"), {0, 2, 4}), 3);
+  EXPECT_GT(FreePaths({"R_PS", "R_PS", "R_PS"}, {0, 1, 2}), 3);
 }
 
 TEST(CertifyStraightPath, SaysWhereAnEndIsNoPoseThatRpsLegsAllow) {

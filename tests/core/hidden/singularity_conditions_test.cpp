@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/hidden/assembly_modes.h"
+#include "core/hidden/singularity_geometry.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
 #include "tests/testing/random.h"
@@ -280,6 +281,26 @@ TEST(Type2Measure, HasAGeometricConditionForAsManyLegsAsThePlatformNeedsAlone) {
 }
 
 // Out along a direction until a leg is stretched or folded.
+// Of every matrix in the balls, also where all middles of a column are 0.
+TEST(DeterminantOfBalls, EnclosesThatOfEveryMatrix) {
+  using Balls = Eigen::Matrix<RealBall, Eigen::Dynamic, Eigen::Dynamic>;
+  const auto determinant = [](const Balls& balls) {
+    return singularity_geometry::DeterminantOf<RealBall>(balls);
+  };
+  const RealBall about_zero(0, 0.1);
+  Balls balls(2, 2);
+  balls << about_zero, RealBall(1), about_zero, RealBall(2);
+  EXPECT_TRUE(Contains(determinant(balls), 0.3));
+  EXPECT_TRUE(Contains(determinant(balls), -0.3));
+  balls(0, 0) = RealBall(0);
+  EXPECT_TRUE(Contains(determinant(balls), 0.1));
+  balls(1, 0) = RealBall(0);
+  EXPECT_EQ(LargestModulus(determinant(balls)), 0);
+  balls << RealBall(1), RealBall(0), RealBall(0), about_zero;
+  EXPECT_TRUE(Contains(determinant(balls), 0.1));
+  EXPECT_EQ(singularity_geometry::DeterminantOf<double>(Eigen::Matrix2d{{0, 1}, {0, 2}}), 0);
+}
+
 TEST(Type1Measure, VanishesWhereALegJustReaches) {
   std::mt19937_64 generator = TestGenerator();
   for (int n = 0; n < 50; ++n)
