@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/algebra/ball.h"
 #include "core/hidden/controllability.h"
 #include "core/hidden/mode_candidates.h"
+#include "core/robots/leg_geometry.h"
 #include "core/robots/leg_state.h"
 #include "core/robots/platform_motion.h"
 
@@ -18,14 +20,17 @@ namespace {
 // A mode's directions agree this well once its pose is polished; candidates are that far off at most before.
 constexpr double kSameDirection = 1e-9;
 constexpr double kNearDirection = 1e-5;
-constexpr double kSamePose = 1e-8;   // m, rad
-constexpr double kLeastSine = 1e-9;  // of two directions that are not parallel
+constexpr double kNearPose = 1e-7;    // m, rad: of a candidate from the pose that it stands for
+constexpr double kMostPolish = 1e-3;  // m, rad: farther away it is another pose
+constexpr double kSamePose = 1e-8;    // m, rad
+constexpr double kLeastSine = 1e-9;   // of two directions that are not parallel
 constexpr int kPolishSteps = 10;
 
 // A seen leg: of both working modes, for the hidden robot's arm turns freely.
 struct SeenLeg {
   RobotLeg leg;
   Eigen::Vector3d direction;  // wanted
+  bool tells_place = false;   // of its platform joint, and not of the platform's rotation alone
   bool is_held = false;       // candidates are poses that put its platform joint where the direction allows
 };
 
@@ -111,6 +116,8 @@ std::optional<NearestState> NearestStateOf(const SeenLeg& seen, const Rigid3& po
   return nearest;
 }
 
+double Distance(const Rigid3& a, const Rigid3& b) { return Displacement(a, b).norm(); }
+
 // Gauss-Newton on the directions, to rounding.
 Rigid3 Polished(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, Rigid3 pose) {
   for (int step = 0; step < kPolishSteps; ++step) {
@@ -127,7 +134,7 @@ Rigid3 Polished(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, Ri
     }
     const Eigen::MatrixXd matrix = interaction * basis;
     const Vector6d twist = basis * matrix.completeOrthogonalDecomposition().solve(errors);
-    pose = Displaced(pose, twist);
+    pose = BackToMotion(robot, Displaced(pose, twist));
     if (twist.norm() < 1e-15) break;
   }
   return pose;
@@ -137,7 +144,7 @@ enum class Judged {
   kMode,
   kReversed,
   kOther,     // some seen leg points elsewhere
-  kDoubtful,  // too near a stretched or folded leg to tell
+  kDoubtful,  // too near a stretched or folded leg, or what RPS legs allow, to tell
 };
 
 struct JudgedPose {
@@ -145,30 +152,41 @@ struct JudgedPose {
   AssemblyMode mode;
 };
 
-// Whether the candidate, once polished, is a mode.
-JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, const Rigid3& candidate) {
-  JudgedPose judged{Judged::kOther, {candidate, 0, true}};
-  bool is_reversed = false;
+// Whether the leg is stretched or folded, or may be, somewhere as near to the candidate as the pose is that
+// this stands for.
+bool IsJustReached(const RobotLeg& leg, const Rigid3& candidate) {
+  const auto near = [](double x) { return RealBall(x, kNearPose); };
+  const Eigen::Matrix3d rotation = candidate.rotation.toRotationMatrix();
+  const auto placed =
+      leg_geometry::Placed<RealBall>(leg, {candidate.translation.unaryExpr(near), rotation.unaryExpr(near)});
+  return Contains(placed.reached.reach, 0);
+}
+
+// Before it is polished.
+Judged JudgeDirections(const std::vector<SeenLeg>& seen, const Rigid3& candidate) {
+  bool is_doubtful = false, is_reversed = false;
   for (const SeenLeg& leg : seen) {
     const auto nearest = NearestStateOf(leg, candidate);
     const double against = nearest ? (nearest->state.direction + leg.direction).norm() : 0;
-    if (!nearest || std::min(nearest->error, against) > kNearDirection) {
-      // A leg that was held there can but be so near to stretched or folded that rounding turns it.
-      if (leg.is_held) judged.as = Judged::kDoubtful;
-      return judged;
-    }
-    is_reversed = is_reversed || against < kNearDirection;
+    is_reversed = is_reversed || (nearest && against < kNearDirection);
+    if (nearest && std::min(nearest->error, against) < kNearDirection) continue;
+    // A leg that was held there can but be so near to stretched or folded that rounding turns it.
+    if (!leg.is_held && !IsJustReached(leg.leg, candidate)) return Judged::kOther;
+    is_doubtful = true;
   }
-  if (is_reversed) {
-    judged.as = Judged::kReversed;
-    return judged;
-  }
+  return is_doubtful ? Judged::kDoubtful : is_reversed ? Judged::kReversed : Judged::kMode;
+}
+
+// Whether the candidate, once polished, is a mode.
+JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, const Rigid3& candidate) {
+  JudgedPose judged{Judged::kOther, {candidate, 0, true}};
+  if (!CanTake(robot, candidate, kNearPose)) return judged;  // a leg that is not seen, of RPS, forbids it
+  judged.as = JudgeDirections(seen, candidate);
+  if (judged.as != Judged::kMode) return judged;
   judged.as = Judged::kDoubtful;
-  judged.mode.base_from_platform = Polished(robot, seen, candidate);
-  if (!CanTake(robot, judged.mode.base_from_platform)) {  // a leg that is not seen, of RPS, forbids it
-    judged.as = Judged::kOther;
-    return judged;
-  }
+  const Rigid3 polished = Polished(robot, seen, BackToMotion(robot, candidate));
+  if (!CanTake(robot, polished) || Distance(candidate, polished) > kMostPolish) return judged;
+  judged.mode.base_from_platform = polished;
   for (const SeenLeg& leg : seen) {
     const auto nearest = NearestStateOf(leg, judged.mode.base_from_platform);
     if (!nearest) return judged;
@@ -179,21 +197,35 @@ JudgedPose Judge(const ParallelRobot& robot, const std::vector<SeenLeg>& seen, c
   return judged;
 }
 
-double Distance(const Rigid3& a, const Rigid3& b) { return Displacement(a, b).norm(); }
+// As indices into `seen`.
+std::vector<size_t> LegsThatTellPlaces(const std::vector<SeenLeg>& seen) {
+  std::vector<size_t> legs;
+  for (size_t i = 0; i < seen.size(); ++i)
+    if (seen[i].tells_place) legs.push_back(i);
+  return legs;
+}
 
-// Every subset of the fewest legs, as indices into `seen`, that whose hidden robot is farthest from a
+std::vector<HeldJoint> HeldJointsOf(const std::vector<SeenLeg>& seen, const std::vector<size_t>& legs) {
+  std::vector<HeldJoint> held;
+  held.reserve(legs.size());
+  for (const size_t i : legs) held.push_back(HeldJointOf(seen[i]));
+  return held;
+}
+
+// Every subset of the fewest of these legs, indices into `seen`, that whose hidden robot is farthest from a
 // singularity at the pose first.
 std::vector<std::vector<size_t>> SubsetsByConditioning(const ParallelRobot& robot,
-                                                       const std::vector<SeenLeg>& seen, const Rigid3& pose) {
+                                                       const std::vector<SeenLeg>& seen,
+                                                       const std::vector<size_t>& legs, const Rigid3& pose) {
   const size_t fewest = FewestLegs(robot.motion);
   const auto basis = MotionBasis(robot, pose);
-  std::vector<bool> is_in(seen.size(), false);
+  std::vector<bool> is_in(legs.size(), false);
   std::fill_n(is_in.begin(), fewest, true);
   std::vector<std::pair<double, std::vector<size_t>>> subsets;
   do {
     std::vector<size_t> chosen;
-    for (size_t i = 0; i < seen.size(); ++i)
-      if (is_in[i]) chosen.push_back(i);
+    for (size_t i = 0; i < legs.size(); ++i)
+      if (is_in[i]) chosen.push_back(legs[i]);
     Eigen::MatrixXd matrix(3 * fewest, basis.cols());
     for (size_t k = 0; k < fewest; ++k) {
       const SeenLeg& leg = seen[chosen[k]];
@@ -219,16 +251,14 @@ struct FewestSolved {
 FewestSolved CandidatesOfFewest(const ParallelRobot& robot, const std::vector<SeenLeg>& seen,
                                 const Rigid3& pose) {
   FewestSolved first;
-  if (seen.size() < FewestLegs(robot.motion)) {
+  const std::vector<size_t> legs = LegsThatTellPlaces(seen);
+  if (legs.size() < FewestLegs(robot.motion)) {
     first.candidates.why = "fewer legs whose directions tell their places than " +
                            std::to_string(FewestLegs(robot.motion)) + " are not solved for";
     return first;
   }
-  for (const std::vector<size_t>& subset : SubsetsByConditioning(robot, seen, pose)) {
-    std::vector<HeldJoint> held;
-    held.reserve(subset.size());
-    for (const size_t i : subset) held.push_back(HeldJointOf(seen[i]));
-    ModeCandidates candidates = CandidatesOf(robot.motion, held, robot.home);
+  for (const std::vector<size_t>& subset : SubsetsByConditioning(robot, seen, legs, pose)) {
+    ModeCandidates candidates = CandidatesOf(robot.motion, HeldJointsOf(seen, subset), robot.home);
     if (candidates.most_possible > 0 && !candidates.is_infinite) return {std::move(candidates), subset};
     if (first.legs.empty()) first = {std::move(candidates), subset};
   }
@@ -240,10 +270,8 @@ FewestSolved CandidatesOfFewest(const ParallelRobot& robot, const std::vector<Se
 bool AreFreeTogether(const ParallelRobot& robot, const std::vector<int>& legs,
                      const std::vector<SeenLeg>& seen, const Rigid3& pose) {
   if (robot.motion == PlatformMotion::kSpatial && MotionBasis(robot, pose).cols() < 6) return false;
-  std::vector<HeldJoint> held;
-  held.reserve(seen.size());
-  for (const SeenLeg& leg : seen) held.push_back(HeldJointOf(leg));
-  return legs.size() == FewestLegs(robot.motion) || AreParallelLines(held);
+  return legs.size() == FewestLegs(robot.motion) ||
+         AreParallelLines(HeldJointsOf(seen, LegsThatTellPlaces(seen)));
 }
 
 AssemblyModes WithoutModes(AssemblyModesStatus status, std::string why) {
@@ -260,7 +288,10 @@ void TakeCandidates(const ParallelRobot& robot, const std::vector<SeenLeg>& seen
     if (judged.as == Judged::kReversed) modes.reversed.push_back(candidate);
     if (judged.as == Judged::kDoubtful) {
       modes.status = AssemblyModesStatus::kIncomplete;
-      modes.why = "a pose where a seen leg is all but stretched or folded could not be told from a mode";
+      modes.why =
+          "a pose where a seen leg is all but stretched or folded, or that RPS legs all but allow, could not "
+          "be "
+          "told from a mode";
     }
     if (judged.as != Judged::kMode) continue;
     const bool is_known = std::any_of(modes.modes.begin(), modes.modes.end(), [&](const AssemblyMode& known) {
@@ -273,14 +304,22 @@ void TakeCandidates(const ParallelRobot& robot, const std::vector<SeenLeg>& seen
   });
 }
 
+// Whether from the pose the platform moves with every direction held: by the constant rank theorem, where
+// they tell of as many of its motions around the pose as at the pose.
+bool LeaveFree(const Controllability& control) {
+  return control.status == ControllabilityStatus::kUncontrollable &&
+         control.fewest_unseen_around == control.unseen_twists.cols();
+}
+
 // Legs whose direction tells something of where the platform is; all reach the pose.
 std::vector<SeenLeg> TellingLegs(const ParallelRobot& robot, const std::vector<int>& legs,
                                  const Rigid3& pose) {
   std::vector<SeenLeg> seen;
   for (const int leg : legs) {
     const RobotLeg& it = robot.legs[static_cast<size_t>(leg)];
-    if (SeenSegmentOf(it.chain).direction == DirectionOf::kLeg)
-      seen.push_back({it, StateOf(it, pose)->direction, false});
+    const DirectionOf direction = SeenSegmentOf(it.chain).direction;
+    if (direction != DirectionOf::kConstant)
+      seen.push_back({it, StateOf(it, pose)->direction, direction == DirectionOf::kLeg, false});
   }
   return seen;
 }
@@ -309,11 +348,10 @@ AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>
       ControllabilityOf(robot, legs, base_from_platform, SeenFeature::kDirections);
   if (control.status == ControllabilityStatus::kUnreachable)
     return WithoutModes(AssemblyModesStatus::kUnreachable, control.why);
-  if (control.status == ControllabilityStatus::kUncontrollable)
-    return WithoutModes(AssemblyModesStatus::kInfinite, control.why);
+  if (LeaveFree(control)) return WithoutModes(AssemblyModesStatus::kInfinite, control.why);
   std::vector<SeenLeg> seen = TellingLegs(robot, legs, base_from_platform);
   const auto [candidates, held] = CandidatesOfFewest(robot, seen, base_from_platform);
-  if (candidates.is_infinite && control.status == ControllabilityStatus::kSingularPose &&
+  if (candidates.is_infinite && control.status != ControllabilityStatus::kControllable &&
       AreFreeTogether(robot, legs, seen, base_from_platform))
     return WithoutModes(AssemblyModesStatus::kInfinite, candidates.why);
   // Two directions over-determine a translation: its candidates are near at best.
@@ -322,6 +360,12 @@ AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>
   modes.most_possible = candidates.most_possible;
   modes.status = candidates.is_complete ? AssemblyModesStatus::kComplete : AssemblyModesStatus::kIncomplete;
   modes.why = candidates.why;
+  if (control.status == ControllabilityStatus::kUncontrollable) {
+    modes.status = AssemblyModesStatus::kIncomplete;
+    modes.why =
+        "the directions do not hold the platform around the pose; whether they do at the pose, which is "
+        "singular besides, is not known";
+  }
   std::vector<Rigid3> poses = candidates.poses;
   poses.push_back(base_from_platform);
   TakeCandidates(robot, seen, base_from_platform, poses, modes);

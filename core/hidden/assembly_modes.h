@@ -40,9 +40,10 @@ struct AssemblyModes {
 // among poses that the platform can take. More legs than the platform needs are sieved from those of the
 // fewest that are solved for. Not solved for, and incomplete, are spatial platforms with joints on circles
 // (RUS) and on lines, and fewer legs that tell their place than three (planar and spatial platforms) or two,
-// where RPS legs or a direction fixed in the platform hold the rest. Infinite is said where the legs do not
-// control the platform anywhere (ControllabilityOf), and of singular poses where the fewest legs there can be
-// leave it free, or parallel lines. Throws std::invalid_argument for a leg that is not there or named twice.
+// where RPS legs or a direction fixed in the platform hold the rest. Infinite is said where the legs tell of
+// as many motions of the platform at the pose as around it, and not of all (ControllabilityOf), and of
+// singular poses where the fewest legs there can be leave it free, or parallel lines. Throws
+// std::invalid_argument for a leg that is not there or named twice.
 AssemblyModes AssemblyModesOf(const ParallelRobot& robot, const std::vector<int>& legs,
                               const Rigid3& base_from_platform);
 

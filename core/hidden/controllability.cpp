@@ -16,11 +16,15 @@ namespace {
 constexpr double kLeastSingularValue = 1e-9;
 constexpr int kOtherPoses = 8;
 constexpr double kOtherPoseStep = 0.1;
+// Of poses nearer than that rounding hides what more is seen there.
+constexpr double kLeastPoseStep = 1e-5;
 constexpr unsigned kSeed = 20160715;
 
 struct Rank {
   int seen = 0, freedoms = 0;
   Eigen::Matrix<double, 6, Eigen::Dynamic> unseen_twists;
+
+  int unseen() const { return freedoms - seen; }
 };
 
 // With angles in radians and lengths in the robot's size; nothing where a leg does not reach.
@@ -38,7 +42,7 @@ std::optional<Rank> RankAt(const ParallelRobot& robot, const std::vector<int>& l
   rank.freedoms = static_cast<int>(basis.cols());
   const double least = kLeastSingularValue * std::max(values[0], 1.0);
   rank.seen = static_cast<int>((values.array() > least).count());
-  rank.unseen_twists = (basis * svd.matrixV().rightCols(rank.freedoms - rank.seen)).colwise().normalized();
+  rank.unseen_twists = (basis * svd.matrixV().rightCols(rank.unseen())).colwise().normalized();
   return rank;
 }
 
@@ -53,20 +57,22 @@ Rigid3 Nearby(const ParallelRobot& robot, const Rigid3& pose, double step, std::
   return BackToMotion(robot, Displaced(pose, twist));
 }
 
-// The most freedoms seen at poses around.
-int MostSeenNearby(const ParallelRobot& robot, const std::vector<int>& legs, const Rigid3& pose,
-                   SeenFeature feature) {
+// The fewest freedoms that are not seen at poses around; nothing where none is reached.
+std::optional<int> FewestUnseenAround(const ParallelRobot& robot, const std::vector<int>& legs,
+                                      const Rigid3& pose, SeenFeature feature) {
   std::mt19937 random(kSeed);
   double step = kOtherPoseStep;
-  int most = 0;
-  for (int i = 0; i < kOtherPoses; ++i) {
+  std::optional<int> fewest;
+  for (int reached = 0; reached < kOtherPoses && step > kLeastPoseStep;) {
     const auto rank = RankAt(robot, legs, Nearby(robot, pose, step, random), feature);
-    if (rank)
-      most = std::max(most, rank->seen);
-    else
+    if (!rank) {
       step /= 2;
+      continue;
+    }
+    fewest = std::min(fewest.value_or(rank->unseen()), rank->unseen());
+    ++reached;
   }
-  return most;
+  return fewest;
 }
 
 std::string AboutUnseen(const Rank& rank) {
@@ -132,15 +138,24 @@ Controllability ControllabilityOf(const ParallelRobot& robot, const std::vector<
     unreachable.why = "a seen leg does not reach the pose";
     return unreachable;
   }
-  Controllability result{ControllabilityStatus::kControllable, rank->freedoms, rank->seen,
-                         rank->unseen_twists, ""};
-  if (rank->seen == rank->freedoms) return result;
-  const bool elsewhere = MostSeenNearby(robot, legs, base_from_platform, feature) == rank->freedoms;
-  result.status = elsewhere ? ControllabilityStatus::kSingularPose : ControllabilityStatus::kUncontrollable;
-  if (!elsewhere && feature == SeenFeature::kDirections)
-    result.why = StructuralReason(robot, legs, rank->freedoms);
+  Controllability result{ControllabilityStatus::kControllable,
+                         rank->freedoms,
+                         rank->seen,
+                         rank->unseen_twists,
+                         std::nullopt,
+                         ""};
+  if (rank->unseen() == 0) return result;
+  result.fewest_unseen_around = FewestUnseenAround(robot, legs, base_from_platform, feature);
+  if (result.fewest_unseen_around.value_or(0) == 0) {
+    result.status = ControllabilityStatus::kSingularPose;
+    result.why = (result.fewest_unseen_around ? "at this pose, though not elsewhere, "
+                                              : "at this pose, and whether elsewhere is not known, ") +
+                 AboutUnseen(*rank);
+    return result;
+  }
+  result.status = ControllabilityStatus::kUncontrollable;
+  if (feature == SeenFeature::kDirections) result.why = StructuralReason(robot, legs, rank->freedoms);
   if (result.why.empty()) result.why = AboutUnseen(*rank);
-  if (elsewhere) result.why = "at this pose, though not elsewhere, " + result.why;
   return result;
 }
 

@@ -31,6 +31,12 @@ struct ModeCandidates {
 inline constexpr double kLeastHalf2 = 1e-12;
 inline constexpr const char* kRootsCoincide = "two poses coincide, or nearly so";
 
+// Of equations that have so many roots, where `missing` of them are not certified.
+inline std::string WhyNotAllRoots(int missing, int most_possible) {
+  return std::to_string(missing) + " of the " + std::to_string(most_possible) +
+         " roots are multiple or at infinity";
+}
+
 // Two joints, x and y: intersections of circles and lines in the plane of `home`.
 ModeCandidates PlanarPointCandidates(const std::vector<HeldJoint>& two, const Rigid3& home);
 

@@ -157,9 +157,7 @@ ModeCandidates PlanarCandidates(const std::vector<HeldJoint>& three, const Rigid
            {root.midpoint[0].real(), root.midpoint[1].real(), home.translation.z()}});
   const int missing = candidates.most_possible - static_cast<int>(roots.roots.size());
   candidates.is_complete = missing == 0;
-  if (missing > 0)
-    candidates.why = std::to_string(missing) + " of the " + std::to_string(candidates.most_possible) +
-                     " roots are multiple or at infinity";
+  if (missing > 0) candidates.why = WhyNotAllRoots(missing, candidates.most_possible);
   return candidates;
 }
 

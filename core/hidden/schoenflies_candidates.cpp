@@ -115,9 +115,7 @@ ModeCandidates CandidatesOf(const std::vector<HeldJoint>& two, const JointForms&
   }
   const int missing = most_possible - static_cast<int>(roots.roots.size());
   candidates.is_complete = missing <= 0;
-  if (missing > 0)
-    candidates.why = std::to_string(missing) + " of the " + std::to_string(most_possible) +
-                     " roots are multiple or at infinity";
+  if (missing > 0) candidates.why = WhyNotAllRoots(missing, most_possible);
   return candidates;
 }
 

@@ -11,8 +11,10 @@
 namespace legible {
 namespace {
 
-// Of the platform's size; below it three joints are on one line.
-constexpr double kLeastTriangle = 1e-5;
+// Twice a triangle's area, of two sides' squares: three joints are on one line, but for rounding, and so
+// nearly that rounding turns the platform by more than candidates may be off.
+constexpr double kOnOneLine = 1e-12;
+constexpr double kNearlyOnOneLine = 1e-5;
 
 // C on its line by how far along it is, which is the unknown of that index.
 std::array<AffineForm, 3> OnLine(const VertexSpace& space, int unknown) {
@@ -68,9 +70,10 @@ Eigen::Matrix<RealBall, 3, 3> DistanceOnCircles(const HeldJoint& first, const He
   return condition;
 }
 
-bool AreOnOneLine(const std::vector<HeldJoint>& three) {
+// Whether the joints' triangle is that flat.
+bool AreOnOneLine(const std::vector<HeldJoint>& three, double flatness) {
   const Eigen::Vector3d a = three[1].turned_m - three[0].turned_m, b = three[2].turned_m - three[0].turned_m;
-  return a.cross(b).norm() < kLeastTriangle * (a.squaredNorm() + b.squaredNorm());
+  return a.cross(b).norm() < flatness * (a.squaredNorm() + b.squaredNorm());
 }
 
 using Joints = std::array<Eigen::Vector3d, 3>;
@@ -110,22 +113,12 @@ ModeCandidates CandidatesOf(const std::vector<HeldJoint>& three, const Roots& ro
   for (const CertifiedRoot& root : roots.roots)
     if (root.is_real) candidates.poses.push_back(PoseOf(three, joints_of(three, root.midpoint.real())));
   candidates.is_complete = roots.is_complete;
-  if (!roots.is_complete)
-    candidates.why = std::to_string(roots.missing) + " of the " + std::to_string(most) +
-                     " roots are multiple or at infinity";
+  if (!roots.is_complete) candidates.why = WhyNotAllRoots(roots.missing, most);
   return candidates;
 }
 
-}  // namespace
-
-ModeCandidates SpatialCandidates(const std::vector<HeldJoint>& three, const Rigid3& /*home*/) {
-  if (AreOnOneLine(three)) {
-    ModeCandidates candidates;
-    candidates.is_infinite = true;
-    candidates.why =
-        "the platform joints of the seen legs lie on one line: the platform turns about it freely";
-    return candidates;
-  }
+// Of joints that are not on one line.
+ModeCandidates OfTriangle(const std::vector<HeldJoint>& three) {
   if (three[0].space.is_circle)
     return CandidatesOf(
         three,
@@ -139,6 +132,24 @@ ModeCandidates SpatialCandidates(const std::vector<HeldJoint>& three, const Rigi
                                               DistanceQuadric(three[1], three[2], c[1], c[2]),
                                               DistanceQuadric(three[2], three[0], c[2], c[0])})),
                       kThreeQuadricsRootCount, OnLines);
+}
+
+}  // namespace
+
+ModeCandidates SpatialCandidates(const std::vector<HeldJoint>& three, const Rigid3& /*home*/) {
+  ModeCandidates candidates;
+  if (AreOnOneLine(three, kOnOneLine)) {
+    candidates.is_infinite = true;
+    candidates.why =
+        "the platform joints of the seen legs lie on one line: the platform turns about it freely";
+    return candidates;
+  }
+  candidates = OfTriangle(three);
+  if (AreOnOneLine(three, kNearlyOnOneLine)) {
+    candidates.is_complete = false;
+    candidates.why = "the platform joints of the seen legs lie nearly on one line";
+  }
+  return candidates;
 }
 
 }  // namespace legible

@@ -11,7 +11,7 @@ namespace legible {
 struct VertexSpace {
   bool is_circle = false;
   Eigen::Vector3d point_m;  // a point of the line, the circle's centre; in base
-  // Unit, in base: along the line; of a circle two radii across each other.
+  // In base: along the line, unit to 1e-6; of a circle two radii, unit and across each other to rounding.
   Eigen::Vector3d along, second_radius;
   double radius_m = 0;  // of the circle
 };

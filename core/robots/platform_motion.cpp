@@ -7,7 +7,6 @@
 namespace legible {
 namespace {
 
-constexpr double kSamePose = 1e-9;  // m, rad
 constexpr double kOnPlane_m = 1e-15;
 constexpr int kMostSteps = 10;
 
@@ -77,11 +76,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> MotionBasisInSize(const ParallelRobot& 
   return basis;
 }
 
-bool CanTake(const ParallelRobot& robot, const Rigid3& base_from_platform) {
+bool CanTake(const ParallelRobot& robot, const Rigid3& base_from_platform, double tolerance) {
   Vector6d left_out = Displacement(robot.home, base_from_platform);
   for (const int coordinate : FreeCoordinates(robot.motion)) left_out[coordinate] = 0;
-  return left_out.lpNorm<Eigen::Infinity>() < kSamePose &&
-         !(SidewaysConstraintsOf(robot, base_from_platform).distance_m.lpNorm<Eigen::Infinity>() > kSamePose);
+  return left_out.lpNorm<Eigen::Infinity>() < tolerance &&
+         !(SidewaysConstraintsOf(robot, base_from_platform).distance_m.lpNorm<Eigen::Infinity>() > tolerance);
 }
 
 Rigid3 BackToMotion(const ParallelRobot& robot, const Rigid3& base_from_platform) {

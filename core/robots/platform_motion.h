@@ -24,8 +24,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> MotionBasis(const ParallelRobot& robot,
 Eigen::Matrix<double, 6, Eigen::Dynamic> MotionBasisInSize(const ParallelRobot& robot,
                                                            const Rigid3& base_from_platform, double size_m);
 
-// Whether the pose is one that the motion allows, to 1e-9 m and rad.
-bool CanTake(const ParallelRobot& robot, const Rigid3& base_from_platform);
+// Whether the pose is one that the motion allows, to so many m and rad.
+bool CanTake(const ParallelRobot& robot, const Rigid3& base_from_platform, double tolerance = 1e-9);
 
 // A pose that RPS legs allow near to the given one, the nearest in first order; any other robot's is left as
 // it is.

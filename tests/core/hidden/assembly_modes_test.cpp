@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "core/robots/leg_state.h"
@@ -252,6 +253,158 @@ TEST(AssemblyModes, OfASingularPoseAreNotInfiniteForThreeLegsThatLeaveThePlatfor
               AssemblyModesStatus::kIncomplete);
     EXPECT_LT(UnseenWay(random, {0, 1, 2, 3}), 0.01);
   }
+}
+
+// The same, but for a millionth of the platform by which the three joints are off one line.
+TEST(AssemblyModes, OfJointsNearlyOnOneLineAreNeitherInfiniteNorComplete) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 20; ++n) {
+    RobotAtPose random = RandomSpatialRobot(generator, kHexapodChains);
+    random.pose = random.robot.home = {};
+    for (size_t i = 0; i < 3; ++i) {
+      RobotLeg& leg = random.robot.legs[i];
+      leg.platform_joint_m = {0.1 + 0.1 * static_cast<double>(i), i == 1 ? 0.150001 : 0.15, 0.0};
+      leg.base_joint_m = leg.platform_joint_m -
+                         Uniform(generator, 0.5, 2) * Eigen::Vector3d::UnitZ().cross(leg.platform_joint_m);
+    }
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 1, 2}, random.pose);
+    EXPECT_EQ(found.status, AssemblyModesStatus::kIncomplete);
+    EXPECT_THAT(found.why, testing::HasSubstr("nearly on one line"));
+  }
+}
+
+// Both directions are across the line of the platform joints: at the pose the legs hold it along one normal,
+// around it along two, of three freedoms.
+TEST(AssemblyModes, AreNotInfiniteWhereThePoseLosesMoreThanThoseAroundIt) {
+  ParallelRobot robot;
+  robot.motion = PlatformMotion::kPlanar;
+  for (const int side : {-1, 1}) {
+    RobotLeg leg;
+    leg.chain = ChainFromText("_RRR");
+    leg.base_joint_m = {1.5 * side, -1, 0};
+    leg.platform_joint_m = {0.5 * side, 0, 0};
+    leg.arm_m = leg.rod_m = 1;
+    leg.working_mode = side;
+    robot.legs.push_back(leg);
+  }
+  for (const RobotLeg& leg : robot.legs)
+    ASSERT_LT((StateOf(leg, {})->direction - Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  const AssemblyModes found = AssemblyModesOf(robot, {0, 1}, {});
+  EXPECT_EQ(found.status, AssemblyModesStatus::kIncomplete);
+  EXPECT_THAT(found.why, testing::HasSubstr("around the pose"));
+  ASSERT_EQ(found.modes.size(), 1);
+  EXPECT_LT(Displacement(found.modes[0].base_from_platform, {}).norm(), 1e-12);
+}
+
+// A PRP leg's direction is the platform's: of the modes of the others it leaves those with its orientation.
+TEST(AssemblyModes, AreSievedByALegWhoseDirectionIsThePlatforms) {
+  std::mt19937_64 generator = TestGenerator();
+  int sieved = 0;
+  for (int n = 0; n < 100; ++n) {
+    const RobotAtPose random = RandomPlanarRobot(generator, {"_RRR", "_RRR", "_RRR", "_PRP"});
+    const AssemblyModes all = AssemblyModesOf(random.robot, AllLegs(random.robot), random.pose);
+    const AssemblyModes without = AssemblyModesOf(random.robot, {0, 1, 2}, random.pose);
+    ASSERT_FALSE(all.modes.empty());
+    sieved += static_cast<int>(without.modes.size() - all.modes.size());
+    for (const AssemblyMode& mode : all.modes)
+      for (RobotLeg leg : random.robot.legs) {
+        const Eigen::Vector3d wanted = StateOf(leg, random.pose)->direction;
+        double error = 2;
+        for (int i = 0; i < 2; ++i, leg.working_mode = -leg.working_mode)
+          error = std::min(error, (StateOf(leg, mode.base_from_platform)->direction - wanted).norm());
+        EXPECT_LT(error, 1e-9);
+      }
+  }
+  EXPECT_GT(sieved, 20);
+}
+
+// A second pose of the robot's three legs; nothing where there is none.
+std::optional<Rigid3> SecondModeOfThree(const RobotAtPose& random) {
+  const AssemblyModes three = AssemblyModesOf(random.robot, {0, 1, 2}, random.pose);
+  if (three.status != AssemblyModesStatus::kComplete || three.modes.size() < 2) return std::nullopt;
+  return three.modes[1].base_from_platform;
+}
+
+void ExpectCompleteOnlyWith(const Rigid3& mode, const AssemblyModes& found) {
+  const bool has_mode = std::any_of(found.modes.begin(), found.modes.end(), [&](const AssemblyMode& it) {
+    return Displacement(it.base_from_platform, mode).norm() < 1e-6;
+  });
+  EXPECT_TRUE(has_mode || found.status != AssemblyModesStatus::kComplete);
+}
+
+// A leg that has the direction u at a pose, and the same where it is stretched: B is the arm's length from A
+// at both, |D + arm u| = arm with D from the platform joint at the second to that at the first.
+std::optional<RobotLeg> LegStretchedAt(std::mt19937_64& generator, RobotLeg leg, const Rigid3& pose,
+                                       const Rigid3& stretched) {
+  const Eigen::Vector3d first_m = pose * leg.platform_joint_m, second_m = stretched * leg.platform_joint_m;
+  const Eigen::Vector3d u = RandomDirectionAcross(generator, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d d = first_m - second_m;
+  leg.carried_offset_m.setZero();
+  leg.arm_m = -d.squaredNorm() / (2 * d.dot(u));
+  if (!(leg.arm_m > 0.1 && leg.arm_m < 10)) return std::nullopt;
+  leg.base_joint_m = second_m - (leg.arm_m + leg.rod_m) * u;
+  for (const int sign : {1, -1}) {
+    leg.working_mode = sign;
+    const auto state = StateOf(leg, pose);
+    if (state && (state->direction - u).norm() < 1e-9) return leg;
+  }
+  return std::nullopt;
+}
+
+TEST(AssemblyModes, AreNotCompleteWithoutOneWhereALegIsStretched) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int checked = 0; checked < 150;) {
+    RobotAtPose random = RandomPlanarRobot(generator, {"_RRR", "_RRR", "_RRR", "_RRR"});
+    const auto second = SecondModeOfThree(random);
+    if (!second) continue;
+    const auto fourth = LegStretchedAt(generator, random.robot.legs[3], random.pose, *second);
+    if (!fourth) continue;
+    random.robot.legs[3] = *fourth;
+    ExpectCompleteOnlyWith(*second, AssemblyModesOf(random.robot, {0, 1, 2, 3}, random.pose));
+    ++checked;
+  }
+}
+
+// Of legs in one plane two directions leave the platform at two places.
+TEST(AssemblyModes, OfATranslationAreNotCompleteWithoutOneWhereALegIsStretched) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int checked = 0; checked < 150;) {
+    RobotAtPose random = RandomPlanarRobot(generator, {"_RRR", "_RRR"});
+    random.robot.motion = PlatformMotion::kTranslation;
+    const AssemblyModes two = AssemblyModesOf(random.robot, {0, 1}, random.pose);
+    if (two.modes.size() < 2) continue;
+    const Rigid3 second = two.modes[1].base_from_platform;
+    const auto third = LegStretchedAt(generator, random.robot.legs[1], random.pose, second);
+    if (!third) continue;
+    random.robot.legs.push_back(*third);
+    ExpectCompleteOnlyWith(second, AssemblyModesOf(random.robot, {0, 1, 2}, random.pose));
+    ++checked;
+  }
+}
+
+// Three legs are seen; the plane in which the fourth, of RPS, keeps its joint goes through two of their
+// modes.
+TEST(AssemblyModes, AreNotLostWhereALegThatIsNotSeenAllowsThem) {
+  std::mt19937_64 generator = TestGenerator();
+  int complete = 0;
+  for (int checked = 0; checked < 100;) {
+    RobotAtPose random = RandomSpatialRobot(generator, {"U_PS", "U_PS", "U_PS"});
+    const auto second = SecondModeOfThree(random);
+    if (!second) continue;
+    RobotLeg fourth = random.robot.legs[0];
+    fourth.chain = ChainFromText("R_PS");
+    fourth.base_joint_m = UniformVector(generator, -0.6, 0.6);
+    fourth.platform_joint_m = UniformVector(generator, -0.4, 0.4);
+    fourth.first_axis = (random.pose * fourth.platform_joint_m - fourth.base_joint_m)
+                            .cross(*second * fourth.platform_joint_m - fourth.base_joint_m)
+                            .normalized();
+    random.robot.legs.push_back(fourth);
+    const AssemblyModes found = AssemblyModesOf(random.robot, {0, 1, 2}, random.pose);
+    ExpectCompleteOnlyWith(*second, found);
+    complete += found.status == AssemblyModesStatus::kComplete ? 1 : 0;
+    ++checked;
+  }
+  EXPECT_GT(complete, 80);
 }
 
 // Three legs are seen; the fourth, of RPS, keeps its joint in a plane all the same.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/robots/platform_motion.h"
 #include "tests/testing/derivatives.h"
 #include "tests/testing/matrices.h"
@@ -194,6 +196,47 @@ TEST(Controllability, TellsASingularPoseFromARobotThatCannotBeControlled) {
     second.working_mode = Eigen::Vector3d::UnitZ().dot((along + rod).cross(along)) > 0 ? 1 : -1;
     EXPECT_EQ(By(five_bar, SeenFeature::kDirections).status, Status::kSingularPose);
   }
+}
+
+// A five-bar with equal arms and rods that is stretched but for the angle, both arms parallel: hardly a pose
+// around is reached.
+ParallelRobot NearlyStretched(double angle_rad) {
+  ParallelRobot robot;
+  robot.motion = PlatformMotion::kPlanarPoint;
+  for (const int side : {-1, 1}) {
+    RobotLeg leg;
+    leg.chain = ChainFromText("_RRR");
+    leg.base_joint_m = {2 * side * std::cos(angle_rad), 0, 0};
+    leg.arm_m = leg.rod_m = 1;
+    robot.legs.push_back(leg);
+  }
+  return robot;
+}
+
+TEST(Controllability, OfASingularPoseIsToldByPosesAsNearAsAreReached) {
+  const Controllability found =
+      ControllabilityOf(NearlyStretched(0.01), {0, 1}, {}, SeenFeature::kDirections);
+  EXPECT_EQ(found.status, Status::kSingularPose);
+  EXPECT_EQ(found.unseen_twists.cols(), 1);
+  EXPECT_EQ(found.fewest_unseen_around, 0);
+  EXPECT_THAT(found.why, testing::HasSubstr("not elsewhere"));
+}
+
+TEST(Controllability, IsNotDeniedWhereNoPoseAroundIsReached) {
+  const Controllability found =
+      ControllabilityOf(NearlyStretched(1e-4), {0, 1}, {}, SeenFeature::kDirections);
+  EXPECT_EQ(found.status, Status::kSingularPose);
+  EXPECT_FALSE(found.fewest_unseen_around.has_value());
+  EXPECT_THAT(found.why, testing::HasSubstr("not known"));
+}
+
+TEST(Controllability, TellsHowManyMotionsAreUnseenAround) {
+  std::mt19937_64 generator = TestGenerator();
+  const RobotAtPose hexapod = RandomSpatialRobot(generator, std::vector<std::string>(6, "U_PS"));
+  const Controllability found = By(hexapod, SeenFeature::kDirections, {0, 2});
+  EXPECT_EQ(found.unseen_twists.cols(), 2);
+  EXPECT_EQ(found.fewest_unseen_around, 2);
+  EXPECT_FALSE(By(hexapod, SeenFeature::kDirections).fewest_unseen_around.has_value());
 }
 
 TEST(Controllability, IsUnreachableWhereALegIs) {

@@ -94,5 +94,22 @@ TEST(VertexSpace, ContainsThePlatformJointAndLeavesItAlongTheFreeDirection) {
       }
 }
 
+// Of axes that are unit and across each other to 1e-6 alone, as robots may have them.
+TEST(VertexSpace, OfACircleHasRadiiThatAreUnitAndAcrossEachOther) {
+  std::mt19937_64 generator = TestGenerator();
+  for (int n = 0; n < 50; ++n) {
+    RobotAtPose random = RandomSpatialRobot(generator, {"_RUS", "_RUS", "_RUS"});
+    for (RobotLeg& leg : random.robot.legs) {
+      leg.first_axis += UniformVector(generator, -4e-7, 4e-7);
+      leg.zero_direction += UniformVector(generator, -4e-7, 4e-7);
+      const VertexSpace space = VertexSpaceOf(leg, RandomDirection(generator));
+      EXPECT_NEAR(space.along.norm(), 1, 5e-16);
+      EXPECT_NEAR(space.second_radius.norm(), 1, 5e-16);
+      EXPECT_NEAR(space.along.dot(space.second_radius), 0, 5e-16);
+      EXPECT_LT((space.along - leg.zero_direction).norm(), 2e-6);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace legible
