@@ -156,7 +156,7 @@ test("neighbours of one verdict form a group with their number", () => {
   assert.deepEqual(
     byVerdict(sets).map(({ label, rows }) => [label, rows.length]),
     [
-      ["Leads to the goal: 2 sets", 2],
+      ["Arrives, proved: 2 sets", 2],
       ["Misled: 1 set", 1],
     ],
   );

@@ -1,7 +1,7 @@
 // All sets of legs in one table; a click chooses the set that the sections below show.
 import { copyable } from "../shared/copy_table.js";
 import { append, html, muted, paragraph, table } from "../shared/dom.js";
-import { isNumber, plural, sentence } from "../shared/format.js";
+import { plural, sentence } from "../shared/format.js";
 import { DEGREES, MM } from "../shared/quantities.js";
 import { bareFigureOf } from "./figures.js";
 import { edgesOf, edgesSentence, legsOf, otherModes, verdictOf } from "./wording.js";
@@ -102,11 +102,10 @@ const chooseButton = (set) =>
 
 function verdictCell(set) {
   const { label, level } = verdictOf(set);
-  const way = isNumber(set.simulation?.position_from_goal_m) ? " simulated" : "";
   return html(
     "span",
     null,
-    html("span", { class: "status" }, html("span", { class: `light ${level}` }), label + (way && `,${way}`)),
+    html("span", { class: "status" }, html("span", { class: `light ${level}` }), label),
     set.why && html("small", null, sentence(set.why)),
   );
 }

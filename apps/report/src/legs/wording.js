@@ -3,7 +3,7 @@ import { MISSING, capitalized } from "../shared/format.js";
 
 const VERDICTS = {
   possible: {
-    label: "Leads to the goal",
+    label: "Arrives, proved",
     level: "good",
     text: "The simulated servo ends at the goal, and its way is proved free of singularities of the hidden robot.",
   },
