@@ -109,11 +109,15 @@ RobotAtPose LikeAQuattro(std::mt19937_64& generator) {
 RobotAtPose LikeAHexapod(std::mt19937_64& generator) {
   return RandomSpatialRobot(generator, std::vector<std::string>(6, "U_PS"));
 }
+RobotAtPose OnSixArms(std::mt19937_64& generator) {
+  return RandomSpatialRobot(generator, std::vector<std::string>(6, "_RUS"));
+}
 RobotAtPose WithThreePlanarArms(std::mt19937_64& generator) {
   return RandomPlanarRobot(generator, std::vector<std::string>(3, "_RRR"));
 }
 BENCHMARK_CAPTURE(BM_AssemblyModes, quattro_pair, LikeAQuattro, {0, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_AssemblyModes, three_ups, LikeAHexapod, {0, 1, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_AssemblyModes, three_rus, OnSixArms, {0, 1, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_AssemblyModes, three_pi_rr, WithThreePlanarArms, {0, 1, 2})
     ->Unit(benchmark::kMillisecond);
 
