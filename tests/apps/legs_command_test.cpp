@@ -24,6 +24,7 @@ using testing::StartsWith;
 
 const std::string kRobots = std::string(LEGIBLE_SOURCE_DIR) + "/datasets/robots/";
 const std::string kQuattro = kRobots + "quattro.yaml";
+const std::string kHexapod = std::string(LEGIBLE_SOURCE_DIR) + "/datasets/hexapod/robot.yaml";
 const std::string kStart = "0 0 -0.75 0 0 0", kGoal = "-0.2 0 -0.56 0 0 0";
 
 ProgramRun Legs(std::vector<std::string> options) {
@@ -324,7 +325,7 @@ TEST(LegsCommand, RefusesMapsThatItCannotDraw) {
 }
 
 TEST(LegsCommand, ShowsTheHexapodsOwnAssemblyModesAndWhichModesItsJointsCanReach) {
-  const json document = Document({LEGIBLE_SOURCE_DIR "/datasets/hexapod/robot.yaml", "--legs", "1,2,6"});
+  const json document = Document({kHexapod, "--legs", "1,2,6"});
   EXPECT_EQ(document["robot_modes"]["most_possible"], 40);
   ASSERT_FALSE(document["robot_modes"]["modes"].empty());
   EXPECT_LT(document["robot_modes"]["modes"][0]["position_from_goal_m"].get<double>(), 1e-9);
@@ -336,8 +337,7 @@ TEST(LegsCommand, ShowsTheHexapodsOwnAssemblyModesAndWhichModesItsJointsCanReach
 // The 3-UPS hidden in a hexapod is cuspidal: in one aspect, with the straight path proved free, the servo of
 // these legs ends 53 mm off with all errors at zero.
 TEST(LegsCommand, DoesNotTakeOneAspectForTheGoal) {
-  const json document = Document({LEGIBLE_SOURCE_DIR "/datasets/hexapod/robot.yaml", "--from",
-                                  "-0.0152 0.0370 0.3798 -0.0776 -0.0720 0.7629", "--to",
+  const json document = Document({kHexapod, "--from", "-0.0152 0.0370 0.3798 -0.0776 -0.0720 0.7629", "--to",
                                   "-0.0113 0.0402 0.3666 0.1338 -0.2654 0.8578", "--legs", "2,3,6"});
   const json& set = document["sets"][0];
   EXPECT_EQ(set["path"]["verdict"], "free");
@@ -350,8 +350,7 @@ TEST(LegsCommand, DoesNotTakeOneAspectForTheGoal) {
 
 // Half way leg 6 would be shorter than it can be.
 TEST(LegsCommand, FollowsJointRangesAllAlongTheSimulatedWay) {
-  const json document = Document({LEGIBLE_SOURCE_DIR "/datasets/hexapod/robot.yaml", "--from",
-                                  "-0.1056 -0.0376 0.3243 -0.0379 -0.1171 1.2434", "--to",
+  const json document = Document({kHexapod, "--from", "-0.1056 -0.0376 0.3243 -0.0379 -0.1171 1.2434", "--to",
                                   "0.0791 -0.0151 0.3333 -0.0379 -0.1171 1.2434", "--legs", "1,2,3,4,5,6"});
   EXPECT_EQ(document["sets"][0]["verdict"], "out-of-reach");
   EXPECT_EQ(document["sets"][0]["why"], "leg 6 leaves its joint range on the simulated way");

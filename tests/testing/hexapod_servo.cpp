@@ -28,7 +28,7 @@ Rigid3 DrawPose(const GoughStewart& robot, std::mt19937& random) {
     for (double& coordinate : step) coordinate = uniform(random);
     step.head<3>() *= kReach_m;
     step.tail<3>() *= kTurn_rad;
-    const Rigid3 pose = Displaced(robot.home, step);
+    Rigid3 pose = Displaced(robot.home, step);
     if (KeepsMargin(robot, pose, kMargin_m)) return pose;
   }
 }
