@@ -152,9 +152,7 @@ std::vector<std::string> Warnings(const LegsRun& run) {
                                    run.selection.robot_path.why));
   if (!run.selection.has_choice) return warnings;
   const JudgedLegSet& best = run.selection.sets.front();
-  if (best.verdict == LegSetVerdict::kArrives)
-    warnings.push_back(
-        fmt::format("legs {} are not proved to lead to the goal: {}", LegNumbers(best.legs), best.why));
+  if (best.verdict == LegSetVerdict::kArrives) warnings.push_back(NotProvedText(best.legs, best.why));
   if (best.modes.status != AssemblyModesStatus::kComplete)
     warnings.push_back(fmt::format("the assembly modes of legs {} may not be all: {}", LegNumbers(best.legs),
                                    best.modes.why));

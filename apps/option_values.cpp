@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/geometry/pose_coordinates.h"
 #include "datasets/text.h"
 
 namespace legible {
@@ -97,8 +98,7 @@ Vector6d ParsePose(const std::string& text) { return ParseSix(text, "x y z rx ry
 
 std::string PoseText(const Rigid3& base_from_platform) {
   constexpr double kNothing = 1e-10;
-  Vector6d pose;
-  pose << base_from_platform.translation, VectorFromRotation(base_from_platform.rotation);
+  Vector6d pose = CoordinatesOf(base_from_platform);
   pose = (pose.array().abs() < kNothing).select(0, pose);
   return fmt::format("{:.10g}", fmt::join(pose, " "));
 }

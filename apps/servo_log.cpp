@@ -10,6 +10,7 @@
 
 #include "apps/json_text.h"
 #include "apps/servo_setup_json.h"
+#include "core/geometry/pose_coordinates.h"
 #include "datasets/atomic_file.h"
 #include "datasets/csv_table.h"
 #include "datasets/input_error.h"
@@ -61,12 +62,6 @@ std::vector<std::string> PoseNames(const std::string& prefix) {
 }
 const std::vector<std::string> kCovarianceNames = {"c_xx", "c_yx", "c_zx", "c_xy", "c_yy",
                                                    "c_zy", "c_xz", "c_yz", "c_zz"};
-
-Vector6d CoordinatesOf(const Rigid3& pose) {
-  Vector6d coordinates;
-  coordinates << pose.translation, VectorFromRotation(pose.rotation);
-  return coordinates;
-}
 
 CsvRowWriter CycleRow(size_t number, const LoggedCycle& logged, const ControlLawOptions& law) {
   const ServoCycle& cycle = logged.cycle;

@@ -99,10 +99,6 @@ void WarnOfOtherModes(PreparedServo& prepared, const JudgedLegSet& set, const Ri
                                             LegNumbers(set.legs), set.modes.why));
 }
 
-std::string NotProvedText(const JudgedLegSet& set) {
-  return fmt::format("legs {} are not proved to lead to the goal: {}", LegNumbers(set.legs), set.why);
-}
-
 void WarnOfWay(PreparedServo& prepared, const std::string& what, const PathCertificate& way) {
   if (way.verdict == PathVerdict::kFree) return;
   prepared.warnings.push_back(
@@ -127,7 +123,7 @@ void SettleWatchedLegs(PreparedServo& prepared, ProgressLine& progress) {
   const JudgedLegSet set = prepared.settings.chooses_legs ? Choose(prepared, robot, *from, *goal, progress)
                                                           : JudgeNamed(robot, Watched(law), *from, *goal);
   DemandGoal(prepared.setup.goal, law);
-  if (set.verdict == LegSetVerdict::kArrives) prepared.warnings.push_back(NotProvedText(set));
+  if (set.verdict == LegSetVerdict::kArrives) prepared.warnings.push_back(NotProvedText(set.legs, set.why));
   WarnOfOtherModes(prepared, set, *goal);
   WarnOfWay(prepared, "what legs " + LegNumbers(set.legs) + " show", set.path);
   std::vector<int> every(kLegCount);

@@ -27,6 +27,11 @@ inline std::string LegNumbers(const std::vector<int>& legs, std::string_view bet
   return fmt::format("{}", fmt::join(FromOne(legs), between));
 }
 
+// Of legs (from 0) of which it is not proved, for a reason, where a servo by them ends.
+inline std::string NotProvedText(const std::vector<int>& legs, const std::string& why) {
+  return fmt::format("legs {} are not proved to lead to the goal: {}", LegNumbers(legs), why);
+}
+
 // With its first letter in capitals.
 inline std::string Capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));

@@ -53,16 +53,6 @@ const char* ToString(CellState state) {
   return "out-of-reach";
 }
 
-Vector6d CoordinatesOf(const Rigid3& base_from_platform) {
-  Vector6d coordinates;
-  coordinates << base_from_platform.translation, VectorFromRotation(base_from_platform.rotation);
-  return coordinates;
-}
-
-Rigid3 PoseAt(const Vector6d& coordinates) {
-  return {RotationFromVector(coordinates.tail<3>()), coordinates.head<3>()};
-}
-
 Eigen::Matrix<double, 6, Eigen::Dynamic> CoordinateRates(const ParallelRobot& robot,
                                                          const Rigid3& base_from_platform) {
   const double size_m = SizeOf_m(robot, base_from_platform);

@@ -8,18 +8,16 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/pose_coordinates.h"
 #include "core/hidden/cone_noise.h"
 #include "core/hidden/singularity_conditions.h"
 #include "core/robots/parallel_robot.h"
 
 namespace legible {
 
-// x y z (m) and the rotation vector (rad) of a pose: the coordinates of a slice, 0 to 5.
-Vector6d CoordinatesOf(const Rigid3& base_from_platform);
-Rigid3 PoseAt(const Vector6d& coordinates);
-
-// Rates of these by the twists of the platform's motion at the pose, which are orthonormal; lengths in units
-// of the robot's size. 6 x dof; the row of a coordinate along which the platform does not move is zero.
+// Rates of a pose's six coordinates (core/geometry/pose_coordinates.h) by the twists of the platform's motion
+// at the pose, which are orthonormal; lengths in units of the robot's size. 6 x dof; the row of a coordinate
+// along which the platform does not move is zero.
 Eigen::Matrix<double, 6, Eigen::Dynamic> CoordinateRates(const ParallelRobot& robot,
                                                          const Rigid3& base_from_platform);
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <numbers>
 
@@ -14,6 +13,7 @@
 #include "core/robots/straight_path.h"
 #include "tests/testing/random.h"
 #include "tests/testing/random_robots.h"
+#include "tests/testing/robot_makers.h"
 
 namespace legible {
 namespace {
@@ -22,23 +22,8 @@ struct Family {
   const char* name;
   RobotKind kind;
   std::vector<int> legs;
-  std::function<RobotAtPose(std::mt19937_64&)> draw;
+  RobotMaker draw;
 };
-
-std::function<RobotAtPose(std::mt19937_64&)> Planar(const std::vector<std::string>& chains) {
-  return [chains](std::mt19937_64& generator) { return RandomPlanarRobot(generator, chains); };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Spatial(const std::vector<std::string>& chains) {
-  return [chains](std::mt19937_64& generator) { return RandomSpatialRobot(generator, chains); };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Delta(const char* chain) {
-  return [chain](std::mt19937_64& generator) {
-    return RandomTranslationRobot(generator, {chain, chain, chain});
-  };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Quattro(const char* chain) {
-  return [chain](std::mt19937_64& generator) { return RandomSchoenfliesRobot(generator, chain); };
-}
 
 std::vector<Family> Families() {
   const RobotKind hidden = RobotKind::kHidden, real = RobotKind::kReal;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "core/hidden/assembly_modes.h"
 #include "core/hidden/singularity_geometry.h"
@@ -11,6 +10,7 @@
 #include "core/robots/platform_motion.h"
 #include "tests/testing/random.h"
 #include "tests/testing/random_robots.h"
+#include "tests/testing/robot_makers.h"
 
 namespace legible {
 namespace {
@@ -28,25 +28,11 @@ struct Family {
   const char* name;
   RobotKind kind;
   std::vector<int> legs;
-  std::function<RobotAtPose(std::mt19937_64&)> draw;
+  RobotMaker draw;
 };
 
-std::function<RobotAtPose(std::mt19937_64&)> Planar(const std::vector<std::string>& chains) {
-  return [chains](std::mt19937_64& generator) { return RandomPlanarRobot(generator, chains); };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Spatial(const std::vector<std::string>& chains) {
-  return [chains](std::mt19937_64& generator) { return RandomSpatialRobot(generator, chains); };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Spatial(int count, const char* chain) {
+RobotMaker SpatialOf(int count, const char* chain) {
   return Spatial(std::vector<std::string>(static_cast<size_t>(count), chain));
-}
-std::function<RobotAtPose(std::mt19937_64&)> Delta(const char* chain) {
-  return [chain](std::mt19937_64& generator) {
-    return RandomTranslationRobot(generator, {chain, chain, chain});
-  };
-}
-std::function<RobotAtPose(std::mt19937_64&)> Quattro(const char* chain) {
-  return [chain](std::mt19937_64& generator) { return RandomSchoenfliesRobot(generator, chain); };
 }
 
 std::vector<Family> Families() {
@@ -57,10 +43,10 @@ std::vector<Family> Families() {
           {"hidden 3-RRR", hidden, {0, 1, 2}, Planar({"_RRR", "R_RR", "_RRR"})},
           {"hidden 3-RPR", hidden, {0, 1, 2}, Planar({"R_PR", "R_PR", "_RPR"})},
           {"hidden 3-PRR", hidden, {0, 1, 2}, Planar({"_PRR", "P_RR", "_PRR"})},
-          {"hidden 3-UPS", hidden, {0, 2, 4}, Spatial(6, "U_PS")},
-          {"hidden 3-PUS", hidden, {0, 2, 4}, Spatial(6, "_PUS")},
-          {"hidden 3-RUS", hidden, {0, 2, 4}, Spatial(6, "_RUS")},
-          {"hidden 3-RPS", hidden, {0, 1, 2}, Spatial(3, "R_PS")},
+          {"hidden 3-UPS", hidden, {0, 2, 4}, SpatialOf(6, "U_PS")},
+          {"hidden 3-PUS", hidden, {0, 2, 4}, SpatialOf(6, "_PUS")},
+          {"hidden 3-RUS", hidden, {0, 2, 4}, SpatialOf(6, "_RUS")},
+          {"hidden 3-RPS", hidden, {0, 1, 2}, SpatialOf(3, "R_PS")},
           {"hidden RPS-2-UPS", hidden, {0, 1, 2}, Spatial({"R_PS", "U_PS", "U_PS", "U_PS", "U_PS"})},
           {"hidden RRP-2-RRR", hidden, {0, 1, 2}, Planar({"_RRP", "_RRR", "R_RR"})},
           {"hidden PRP-PRR-RRR", hidden, {0, 1, 2}, Planar({"_PRP", "_PRR", "R_RR"})},
@@ -78,11 +64,11 @@ std::vector<Family> Families() {
           {"PPR, PPR, RRR", real, {0, 1, 2}, Planar({"_PPR", "P_PR", "R_RR"})},
           {"PRP, RRP, RRP", real, {0, 1, 2}, Planar({"_PRP", "_RRP", "R_RP"})},
           {"PRP, PRR, RRR", real, {0, 1, 2}, Planar({"P_RP", "P_RR", "_RRR"})},
-          {"3-RPS", real, {0, 1, 2}, Spatial(3, "R_PS")},
-          {"3-RPS by their R", real, {0, 1, 2}, Spatial(3, "_RPS")},
+          {"3-RPS", real, {0, 1, 2}, SpatialOf(3, "R_PS")},
+          {"3-RPS by their R", real, {0, 1, 2}, SpatialOf(3, "_RPS")},
           {"2-RPS-2-UPS", real, {0, 1, 2, 3}, Spatial({"R_PS", "_RPS", "U_PS", "U_PS"})},
-          {"hexapod", real, {0, 1, 2, 3, 4, 5}, Spatial(6, "U_PS")},
-          {"6-RUS", real, {0, 1, 2, 3, 4, 5}, Spatial(6, "_RUS")},
+          {"hexapod", real, {0, 1, 2, 3, 4, 5}, SpatialOf(6, "U_PS")},
+          {"6-RUS", real, {0, 1, 2, 3, 4, 5}, SpatialOf(6, "_RUS")},
           {"Delta", real, {0, 1, 2}, Delta("_R-{2-US}")},
           {"linear Delta", real, {0, 1, 2}, Delta("_P-{2-US}")},
           {"3-UPU", real, {0, 1, 2}, Delta("U_PU")},
